@@ -1,0 +1,311 @@
+//! Directions, positions and rotations that know the axes they are written in.
+//!
+//! A product of rotations and directions whose frames do not meet does not compile:
+//! `horizon_from_icrs = horizon_from_true * true_from_icrs` reads like dominoes.
+//!
+//! ```compile_fail
+//! use nocturne::frame::{Dir, Horizon, Icrs, Rot};
+//! let horizon_from_icrs: Rot<Horizon, Icrs> = Rot::claim(glam::DMat3::IDENTITY);
+//! let up: Dir<Horizon> = Dir::from_spherical(nocturne::units::Angle::ZERO, nocturne::units::Angle::ZERO);
+//! let wrong = horizon_from_icrs * up; // the direction is not written in Icrs axes
+//! ```
+//!
+//! The axes, all right-handed unless the line says so:
+//!
+//! ```text
+//! Icrs        x to the origin of right ascension, z to the celestial pole of the ICRS
+//! EclipticOfDate  x to the mean equinox of date, z to the pole of the ecliptic of date
+//! MeanOfDate  x to the mean equinox of date, z to the mean pole of date
+//! TrueOfDate  x to the true equinox of date, z to the true pole (precession and nutation)
+//! Itrs        x to the prime meridian, z to the geographic pole; turns with the Earth
+//! Horizon     x east, y north, z up. Geometric: what stands there without air
+//! Apparent    x east, y north, z up. Refracted: where the light is seen to come from
+//! MoonFixed   x to the mean sub-Earth point, z to the lunar north pole (mean Earth, rotation)
+//! View        x to the right of the picture, y to its top, z towards the viewer
+//!             (the line of sight is -z)
+//!
+//!        Horizon, Apparent                    View
+//!             z up                             y top
+//!             |   y north                      |
+//!             |  /                             |
+//!             | /   azimuth from north         |_______ x right
+//!             |/_____ x east, through east    /
+//!                                            z towards the viewer
+//! ```
+
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::{Add, Mul, Neg, Sub};
+
+use glam::{DMat3, DVec3};
+
+use crate::units::Angle;
+
+/// The axes of the International Celestial Reference System: what catalogues are written in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Icrs {}
+/// Mean ecliptic and mean equinox of date.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EclipticOfDate {}
+/// Mean equator and mean equinox of date: precession, no nutation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MeanOfDate {}
+/// True equator and true equinox of date: precession and nutation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TrueOfDate {}
+/// Axes that turn with the Earth: prime meridian and geographic pole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Itrs {}
+/// Local axes, x east, y north, z up. Geometric: no refraction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Horizon {}
+/// Local axes, x east, y north, z up. As seen: refracted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Apparent {}
+/// Axes fixed in the Moon: mean Earth and rotation axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MoonFixed {}
+/// Camera axes: x right, y up, the line of sight is -z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum View {}
+
+/// A unit direction written in the axes of `F`.
+pub struct Dir<F>(DVec3, PhantomData<F>);
+/// A position or a displacement in kilometres, written in the axes of `F`.
+pub struct Pos<F>(DVec3, PhantomData<F>);
+/// Takes what is written in `From` axes to the same thing in `To` axes.
+pub struct Rot<To, From>(DMat3, PhantomData<(To, From)>);
+
+// Derives would ask that the frame markers themselves be Clone, Copy and so on.
+impl<F> Clone for Dir<F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<F> Copy for Dir<F> {}
+impl<F> PartialEq for Dir<F> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+impl<F> fmt::Debug for Dir<F> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Dir({}, {}, {})", self.0.x, self.0.y, self.0.z)
+    }
+}
+impl<F> Clone for Pos<F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<F> Copy for Pos<F> {}
+impl<F> PartialEq for Pos<F> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+impl<F> fmt::Debug for Pos<F> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Pos({}, {}, {}) km", self.0.x, self.0.y, self.0.z)
+    }
+}
+impl<To, From> Clone for Rot<To, From> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<To, From> Copy for Rot<To, From> {}
+impl<To, From> fmt::Debug for Rot<To, From> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Rot({})", self.0)
+    }
+}
+
+impl<F> Dir<F> {
+    /// A direction from any vector that is not zero; it is brought to unit length.
+    pub fn from_vector(vector: DVec3) -> Self {
+        Dir(vector.normalize(), PhantomData)
+    }
+    /// From longitude (counter-clockwise from x about z) and latitude (from the xy plane to z):
+    /// right ascension and declination, ecliptic longitude and latitude, and so on.
+    pub fn from_spherical(longitude: Angle, latitude: Angle) -> Self {
+        let (sin_lon, cos_lon) = longitude.sin_cos();
+        let (sin_lat, cos_lat) = latitude.sin_cos();
+        Dir(DVec3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat), PhantomData)
+    }
+    pub const fn vector(self) -> DVec3 {
+        self.0
+    }
+    /// Longitude in `[0, 2 pi)`, counter-clockwise from x about z.
+    pub fn longitude(self) -> Angle {
+        Angle::from_rad(self.0.y.atan2(self.0.x)).positive()
+    }
+    /// Latitude in `[-pi/2, pi/2]`; exact at the poles too, where an arcsine loses half its digits.
+    pub fn latitude(self) -> Angle {
+        Angle::from_rad(self.0.z.atan2(self.0.x.hypot(self.0.y)))
+    }
+    pub fn dot(self, other: Self) -> f64 {
+        self.0.dot(other.0)
+    }
+    /// The angle between two directions, exact for small and for large ones.
+    pub fn separation(self, other: Self) -> Angle {
+        Angle::from_rad(self.0.cross(other.0).length().atan2(self.0.dot(other.0)))
+    }
+    /// The position at a distance in this direction.
+    pub fn at_km(self, distance_km: f64) -> Pos<F> {
+        Pos(self.0 * distance_km, PhantomData)
+    }
+}
+
+/// Azimuth and altitude belong to the two local frames alone.
+pub trait Local {}
+impl Local for Horizon {}
+impl Local for Apparent {}
+
+impl<F: Local> Dir<F> {
+    /// From azimuth (from north through east) and altitude.
+    pub fn from_azimuth_altitude(azimuth: Angle, altitude: Angle) -> Self {
+        let (sin_az, cos_az) = azimuth.sin_cos();
+        let (sin_alt, cos_alt) = altitude.sin_cos();
+        Dir(DVec3::new(cos_alt * sin_az, cos_alt * cos_az, sin_alt), PhantomData)
+    }
+    /// Azimuth in `[0, 2 pi)`, from north through east.
+    pub fn azimuth(self) -> Angle {
+        Angle::from_rad(self.0.x.atan2(self.0.y)).positive()
+    }
+    /// Altitude above the horizontal plane.
+    pub fn altitude(self) -> Angle {
+        self.latitude()
+    }
+}
+
+impl<F> Neg for Dir<F> {
+    type Output = Dir<F>;
+    fn neg(self) -> Dir<F> {
+        Dir(-self.0, PhantomData)
+    }
+}
+
+impl<F> Pos<F> {
+    pub const ORIGIN: Pos<F> = Pos(DVec3::ZERO, PhantomData);
+
+    pub const fn from_km(vector: DVec3) -> Self {
+        Pos(vector, PhantomData)
+    }
+    pub const fn km(self) -> DVec3 {
+        self.0
+    }
+    pub fn distance_km(self) -> f64 {
+        self.0.length()
+    }
+    /// The direction of a position that is not the origin.
+    pub fn dir(self) -> Dir<F> {
+        Dir::from_vector(self.0)
+    }
+}
+
+impl<F> Add for Pos<F> {
+    type Output = Pos<F>;
+    fn add(self, other: Pos<F>) -> Pos<F> {
+        Pos(self.0 + other.0, PhantomData)
+    }
+}
+impl<F> Sub for Pos<F> {
+    type Output = Pos<F>;
+    fn sub(self, other: Pos<F>) -> Pos<F> {
+        Pos(self.0 - other.0, PhantomData)
+    }
+}
+impl<F> Neg for Pos<F> {
+    type Output = Pos<F>;
+    fn neg(self) -> Pos<F> {
+        Pos(-self.0, PhantomData)
+    }
+}
+impl<F> Mul<f64> for Pos<F> {
+    type Output = Pos<F>;
+    fn mul(self, factor: f64) -> Pos<F> {
+        Pos(self.0 * factor, PhantomData)
+    }
+}
+
+impl<To, From> Rot<To, From> {
+    /// The one door: a bare matrix is *claimed* to take `From` axes to `To` axes. Say why at the
+    /// call. The matrix must be orthogonal.
+    pub fn claim(matrix: DMat3) -> Self {
+        debug_assert!(
+            (matrix * matrix.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-9),
+            "not a rotation: {matrix}"
+        );
+        Rot(matrix, PhantomData)
+    }
+    pub const fn matrix(self) -> DMat3 {
+        self.0
+    }
+    pub fn inverse(self) -> Rot<From, To> {
+        Rot(self.0.transpose(), PhantomData)
+    }
+}
+
+impl<A, B, C> Mul<Rot<B, C>> for Rot<A, B> {
+    type Output = Rot<A, C>;
+    fn mul(self, other: Rot<B, C>) -> Rot<A, C> {
+        Rot(self.0 * other.0, PhantomData)
+    }
+}
+impl<To, From> Mul<Dir<From>> for Rot<To, From> {
+    type Output = Dir<To>;
+    fn mul(self, dir: Dir<From>) -> Dir<To> {
+        Dir(self.0 * dir.0, PhantomData)
+    }
+}
+impl<To, From> Mul<Pos<From>> for Rot<To, From> {
+    type Output = Pos<To>;
+    fn mul(self, pos: Pos<From>) -> Pos<To> {
+        Pos(self.0 * pos.0, PhantomData)
+    }
+}
+
+/// Takes coordinates to axes turned by `angle` about x (the astronomer's `R1`).
+pub fn turn_axes_x(angle: Angle) -> DMat3 {
+    DMat3::from_rotation_x(-angle.rad())
+}
+/// Takes coordinates to axes turned by `angle` about y (the astronomer's `R2`).
+pub fn turn_axes_y(angle: Angle) -> DMat3 {
+    DMat3::from_rotation_y(-angle.rad())
+}
+/// Takes coordinates to axes turned by `angle` about z (the astronomer's `R3`).
+pub fn turn_axes_z(angle: Angle) -> DMat3 {
+    DMat3::from_rotation_z(-angle.rad())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn azimuth_runs_from_north_through_east() {
+        let east: Dir<Horizon> = Dir::from_azimuth_altitude(Angle::from_deg(90.0), Angle::ZERO);
+        assert!(east.vector().abs_diff_eq(DVec3::X, 1e-15));
+        let dir: Dir<Horizon> =
+            Dir::from_azimuth_altitude(Angle::from_deg(217.0), Angle::from_deg(-12.5));
+        assert!((dir.azimuth().deg() - 217.0).abs() < 1e-12);
+        assert!((dir.altitude().deg() + 12.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn turning_the_axes_turns_coordinates_back() {
+        // A point on the y axis lies on the new x axis once the axes have turned by 90 degrees.
+        let quarter = Angle::from_deg(90.0);
+        assert!((turn_axes_z(quarter) * DVec3::Y).abs_diff_eq(DVec3::X, 1e-15));
+        assert!((turn_axes_x(quarter) * DVec3::Z).abs_diff_eq(DVec3::Y, 1e-15));
+        assert!((turn_axes_y(quarter) * DVec3::X).abs_diff_eq(DVec3::Z, 1e-15));
+    }
+
+    #[test]
+    fn separation_keeps_its_digits_when_small() {
+        let a: Dir<Icrs> = Dir::from_spherical(Angle::ZERO, Angle::ZERO);
+        let b: Dir<Icrs> = Dir::from_spherical(Angle::from_arcsec(1e-4), Angle::ZERO);
+        assert!((a.separation(b).arcsec() - 1e-4).abs() < 1e-12);
+    }
+}
