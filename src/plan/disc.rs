@@ -1,0 +1,217 @@
+//! Bodies that show a disc, as the picture needs them.
+
+use glam::{DMat3, DVec3};
+
+use crate::frame::{Dir, Horizon};
+use crate::units::{Angle, Xyzv};
+
+/// Number of altitudes across a disc at which the air is looked through.
+pub const NODES: usize = 9;
+
+/// How the light of a disc is spread over it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SurfaceLaw {
+    /// Shines by itself; `I(mu) / I(1)` is the polynomial with these coefficients.
+    Sun { limb_darkening: [f64; 6] },
+    /// Lommel and Seeliger's law times a map of relative albedo.
+    Moon { map: AlbedoMap },
+    /// Lambert's law.
+    Lambert,
+}
+
+/// Relative albedo in the body's own axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AlbedoMap {
+    /// Columns, longitude -180 to 180 degrees; there are half as many rows, from north to south.
+    pub width: usize,
+    pub albedo: Vec<f32>,
+}
+
+impl AlbedoMap {
+    /// Bilinear look-up along an outward normal in the body's own axes.
+    pub fn at(&self, normal: DVec3) -> f64 {
+        let (width, height) = (self.width as i64, self.width as i64 / 2);
+        let turns = normal.y.atan2(normal.x) / std::f64::consts::TAU;
+        let latitude = normal.z.atan2(normal.x.hypot(normal.y));
+        let x = (turns + 0.5) * width as f64 - 0.5;
+        let y = (0.5 - latitude / std::f64::consts::PI) * height as f64 - 0.5;
+        let y = y.clamp(0.0, (height - 1) as f64);
+        let (x0, y0) = (x.floor() as i64, (y as i64).min(height - 2));
+        let texel =
+            |x: i64, y: i64| f64::from(self.albedo[(y * width + x.rem_euclid(width)) as usize]);
+        let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
+        let along = x - x0 as f64;
+        let top = mix(texel(x0, y0), texel(x0 + 1, y0), along);
+        let bottom = mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), along);
+        mix(top, bottom, y - y0 as f64)
+    }
+}
+
+/// Where a body's light falls from, and how it is spread over its disc.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiscShape {
+    /// Geometric direction of the centre, without air.
+    pub centre: Dir<Horizon>,
+    pub angular_radius: Angle,
+    pub dir_to_sun: Dir<Horizon>,
+    /// Takes local axes to the body's own.
+    pub body_from_horizon: DMat3,
+    pub law: SurfaceLaw,
+}
+
+/// The air that a disc is seen through, at one apparent altitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiscNode {
+    pub geometric_altitude: Angle,
+    /// Luminance of a surface whose shape is one, seen through the air, cd/m2.
+    pub luminance: Xyzv,
+}
+
+/// A disc that is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disc {
+    pub label: &'static str,
+    pub shape: DiscShape,
+    /// Top left and bottom right corner of the pixels that it can touch.
+    pub bounds_px: [[f64; 2]; 2],
+    /// Apparent altitude of the first node.
+    pub lowest: Angle,
+    /// Apparent altitude from one node to the next.
+    pub step: Angle,
+    pub nodes: [DiscNode; NODES],
+    /// Samples per pixel, along each axis.
+    pub samples: u32,
+}
+
+/// A point of a disc and its share of the disc's light outside the air; the shares sum to one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiscSample {
+    pub dir: Dir<Horizon>,
+    pub share: f64,
+}
+
+impl DiscShape {
+    /// The shape of the light at an outward normal in local axes: the twin of `shape` in
+    /// `shaders/discs.wgsl`.
+    pub fn shape(&self, normal: DVec3, cos_emission: f64) -> f64 {
+        if let SurfaceLaw::Sun { limb_darkening } = &self.law {
+            return limb_darkening.iter().rev().fold(0.0, |sum, a| sum * cos_emission + a);
+        }
+        let cos_incidence = normal.dot(self.dir_to_sun.vector());
+        if cos_incidence <= 0.0 {
+            return 0.0;
+        }
+        match &self.law {
+            SurfaceLaw::Moon { map } => {
+                let lit = cos_incidence / (cos_incidence + cos_emission);
+                lit * map.at(self.body_from_horizon * normal)
+            }
+            _ => cos_incidence,
+        }
+    }
+
+    /// Points spread evenly in solid angle over the disc, `rings` rings of them, with the shape
+    /// of the light at each.
+    fn points(&self, rings: usize) -> Vec<(Dir<Horizon>, f64)> {
+        let centre = self.centre.vector();
+        let side = centre.any_orthonormal_vector();
+        let across = centre.cross(side);
+        let sin_radius = self.angular_radius.sin();
+        let mut points = Vec::with_capacity(3 * rings * rings);
+        for ring in 0..rings {
+            // Ring `ring` holds 6 ring + 3 points, so that each stands for the same area.
+            let radius = (ring as f64 + 0.5) / rings as f64;
+            let count = 6 * ring + 3;
+            for step in 0..count {
+                let turn = (step as f64 + 0.5) / count as f64 * std::f64::consts::TAU;
+                let off_centre = (side * turn.cos() + across * turn.sin()) * radius;
+                let cos_emission = (1.0 - radius * radius).sqrt();
+                let normal = off_centre - centre * cos_emission;
+                let dir = Dir::from_vector(centre + off_centre * sin_radius);
+                points.push((dir, self.shape(normal, cos_emission)));
+            }
+        }
+        points
+    }
+
+    /// Mean of the shape over the disc. Zero when nothing of it is lit.
+    pub fn mean(&self) -> f64 {
+        let points = self.points(64);
+        points.iter().map(|(_, shape)| shape).sum::<f64>() / points.len() as f64
+    }
+
+    /// The disc as points of light.
+    pub fn samples(&self, rings: usize) -> Vec<DiscSample> {
+        let points = self.points(rings);
+        let sum: f64 = points.iter().map(|(_, shape)| shape).sum();
+        points
+            .into_iter()
+            .filter(|(_, shape)| *shape > 0.0)
+            .map(|(dir, shape)| DiscSample { dir, share: shape / sum })
+            .collect()
+    }
+
+    /// Solid angle of the whole disc, steradians.
+    pub fn solid_angle_sr(&self) -> f64 {
+        // 2 pi (1 - cos r), written so that it keeps its digits for a small disc.
+        4.0 * std::f64::consts::PI * (self.angular_radius.rad() / 2.0).sin().powi(2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn disc(law: SurfaceLaw, phase_deg: f64) -> DiscShape {
+        let centre: Dir<Horizon> =
+            Dir::from_azimuth_altitude(Angle::from_deg(90.0), Angle::from_deg(45.0));
+        // At phase zero the Sun stands behind the observer.
+        let toward = -centre.vector();
+        let aside = centre.vector().any_orthonormal_vector();
+        let (sin, cos) = Angle::from_deg(phase_deg).sin_cos();
+        DiscShape {
+            centre,
+            angular_radius: Angle::from_arcmin(16.0),
+            dir_to_sun: Dir::from_vector(toward * cos + aside * sin),
+            body_from_horizon: DMat3::IDENTITY,
+            law,
+        }
+    }
+
+    #[test]
+    fn lambert_sphere_has_its_closed_form() {
+        // Mean over the disc of a Lambert sphere: 2 / (3 pi) ((pi - a) cos a + sin a).
+        for phase_deg in [0.0f64, 40.0, 90.0, 130.0] {
+            let a = phase_deg.to_radians();
+            let pi = std::f64::consts::PI;
+            let exact = 2.0 / (3.0 * pi) * ((pi - a) * a.cos() + a.sin());
+            let mean = disc(SurfaceLaw::Lambert, phase_deg).mean();
+            assert!((mean - exact).abs() < 2e-3, "{phase_deg}: {mean} {exact}");
+        }
+    }
+
+    #[test]
+    fn full_moon_has_no_limb_darkening() {
+        let map = AlbedoMap { width: 4, albedo: vec![1.0; 8] };
+        let shape = disc(SurfaceLaw::Moon { map }, 0.0);
+        let samples = shape.samples(16);
+        let mean = 1.0 / samples.len() as f64;
+        assert!(samples.iter().all(|s| (s.share / mean - 1.0).abs() < 1e-9));
+    }
+
+    #[test]
+    fn shares_sum_to_one_and_the_lit_side_faces_the_sun() {
+        let shape = disc(SurfaceLaw::Lambert, 100.0);
+        let samples = shape.samples(16);
+        assert!((samples.iter().map(|s| s.share).sum::<f64>() - 1.0).abs() < 1e-12);
+        let pull: DVec3 = samples.iter().map(|s| s.dir.vector() * s.share).sum();
+        assert!((pull - shape.centre.vector()).dot(shape.dir_to_sun.vector()) > 0.0);
+    }
+
+    #[test]
+    fn the_map_wraps_at_the_far_side_and_runs_from_north_to_south() {
+        let map = AlbedoMap { width: 4, albedo: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0] };
+        assert!((map.at(DVec3::NEG_X) - (1.0 + 4.0 + 5.0 + 8.0) / 4.0).abs() < 1e-6);
+        assert!(map.at(DVec3::Z) < 4.5 && map.at(DVec3::NEG_Z) > 4.5);
+    }
+}

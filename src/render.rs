@@ -1,0 +1,62 @@
+//! Draws a [`FramePlan`] into an [`HdrFrame`]: the passes in order, on one screen.
+//!
+//! The frame is linear, in cd/m2, 32 bits a channel, from the dark between the stars to the disc
+//! of the Sun without a scale in between.
+
+pub mod gpu;
+pub mod shaders;
+
+mod discs;
+mod sky;
+mod splats;
+mod target;
+mod uniforms;
+
+use crate::image::HdrFrame;
+use crate::plan::FramePlan;
+
+use gpu::{Gpu, GpuError, PassTime};
+
+/// The pipelines, made once; what a frame needs is made with the frame.
+pub struct Renderer {
+    gpu: Gpu,
+    sky: sky::SkyPass,
+    discs: discs::DiscPass,
+    splats: splats::SplatPass,
+}
+
+/// A drawn frame and what it cost.
+pub struct Rendered {
+    pub frame: HdrFrame,
+    /// By pass; empty when the adapter keeps no time.
+    pub times: Vec<PassTime>,
+}
+
+impl Renderer {
+    /// Finds an adapter and makes the pipelines.
+    pub fn new() -> Result<Renderer, GpuError> {
+        let gpu = Gpu::new()?;
+        let sky = sky::SkyPass::new(&gpu);
+        let discs = discs::DiscPass::new(&gpu);
+        let splats = splats::SplatPass::new(&gpu);
+        Ok(Renderer { gpu, sky, discs, splats })
+    }
+
+    /// What draws: the adapter's name and driver.
+    pub fn adapter(&self) -> String {
+        self.gpu.describe()
+    }
+
+    /// Draws the frame and brings it back.
+    pub fn frame(&self, plan: &FramePlan) -> Result<Rendered, GpuError> {
+        let camera = &plan.camera;
+        let mut frame = target::Target::new(&self.gpu, camera)?;
+
+        self.sky.draw(&mut frame, &plan.sky, camera);
+        for disc in &plan.discs {
+            self.discs.draw(&mut frame, disc);
+        }
+        self.splats.draw(&mut frame, &plan.splats);
+        frame.finish()
+    }
+}

@@ -1,0 +1,138 @@
+//! The graphics device, or a sentence that says why there is none.
+
+use thiserror::Error;
+use wgpu::util::DeviceExt;
+
+/// Format of the frame: X, Y, Z, V.
+pub const FRAME_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GpuError {
+    #[error(
+        "no graphics adapter found; install a Vulkan driver (on Debian: apt-get install mesa-vulkan-drivers libvulkan1)"
+    )]
+    NoAdapter,
+    #[error(
+        "the graphics adapter {0} cannot add light in 32-bit floats; use another adapter, or the software driver (on Debian: apt-get install mesa-vulkan-drivers)"
+    )]
+    NoFloatBlending(String),
+    #[error("the graphics adapter {adapter} gave no device: {reason}")]
+    NoDevice { adapter: String, reason: String },
+    #[error(
+        "a picture of {width_px}x{height_px} pixels is larger than the {limit} that this graphics adapter can draw; ask for a smaller --size"
+    )]
+    TooLarge { width_px: u32, height_px: u32, limit: u32 },
+    #[error("the graphics device stopped while drawing: {0}")]
+    Lost(String),
+}
+
+/// Time that the GPU spent on a pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassTime {
+    pub pass: String,
+    pub milliseconds: f64,
+}
+
+/// The device and its queue.
+pub struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    info: wgpu::AdapterInfo,
+    keeps_time: bool,
+}
+
+impl Gpu {
+    /// The best adapter there is; a software one is as good as any other.
+    pub fn new() -> Result<Gpu, GpuError> {
+        let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends,
+            ..wgpu::InstanceDescriptor::new_without_display_handle_from_env()
+        });
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options))
+            .map_err(|_| GpuError::NoAdapter)?;
+        let info = adapter.get_info();
+        let offered = adapter.features();
+        if !offered.contains(wgpu::Features::FLOAT32_BLENDABLE) {
+            return Err(GpuError::NoFloatBlending(info.name));
+        }
+        let timing = wgpu::Features::TIMESTAMP_QUERY;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("nocturne"),
+            required_features: wgpu::Features::FLOAT32_BLENDABLE | (offered & timing),
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|error| GpuError::NoDevice {
+            adapter: info.name.clone(),
+            reason: error.to_string(),
+        })?;
+        Ok(Gpu { device, queue, info, keeps_time: offered.contains(timing) })
+    }
+
+    /// Name, driver and interface of the adapter.
+    pub fn describe(&self) -> String {
+        let wgpu::AdapterInfo { name, driver, driver_info, backend, .. } = &self.info;
+        format!("{name} ({driver} {driver_info}, {backend})")
+    }
+
+    /// Whether passes can be timed.
+    pub fn keeps_time(&self) -> bool {
+        self.keeps_time
+    }
+
+    /// A buffer that holds `contents` from the start.
+    pub fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
+        self.device.create_buffer_init(&descriptor)
+    }
+
+    /// A pipeline that adds its light to the frame.
+    pub fn pipeline(
+        &self,
+        label: &str,
+        source: &str,
+        topology: wgpu::PrimitiveTopology,
+        buffers: &[Option<wgpu::VertexBufferLayout>],
+    ) -> wgpu::RenderPipeline {
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        let add = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(label),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers,
+            },
+            primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: FRAME_FORMAT,
+                    blend: Some(wgpu::BlendState { color: add, alpha: add }),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

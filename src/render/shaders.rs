@@ -1,0 +1,21 @@
+//! The shaders, each assembled from its sources in order: plain concatenation, nothing edited.
+
+const QUANTITIES: &str = include_str!("../../shaders/lib/quantities.wgsl");
+const CAMERA: &str = include_str!("../../shaders/lib/camera.wgsl");
+const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
+
+/// Every shader of the renderer: the name of its pass, and the sources that make it.
+pub const SHADERS: [(&str, &[&str]); 3] = [
+    ("sky", &[QUANTITIES, CAMERA, include_str!("../../shaders/sky.wgsl")]),
+    ("discs", &[QUANTITIES, CAMERA, include_str!("../../shaders/discs.wgsl")]),
+    ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
+];
+
+/// The functions without bindings, for the probes that compare them with their twins.
+pub const LIBRARY: &[&str] = &[QUANTITIES, CAMERA, SPLAT];
+
+/// The whole text of a shader.
+pub fn assembled(pass: &str) -> String {
+    let sources = SHADERS.iter().find(|(name, _)| *name == pass).map(|(_, sources)| *sources);
+    sources.unwrap_or_default().join("\n")
+}

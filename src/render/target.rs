@@ -1,0 +1,235 @@
+//! The frame while it is drawn: its texture, its passes in order, and the way back to memory.
+
+use crate::camera::Camera;
+use crate::image::{HdrFrame, Image};
+
+use super::Rendered;
+use super::gpu::{FRAME_FORMAT, Gpu, GpuError, PassTime};
+use super::uniforms::CameraUniform;
+
+/// Bytes of a pixel of the frame.
+const PIXEL_BYTES: u64 = 16;
+/// The frame comes back in bands of at most this size.
+const BAND_BYTES: u64 = 64 << 20;
+/// Passes that can be timed in one frame.
+const TIMED_PASSES: u32 = 64;
+
+/// A frame being drawn.
+pub struct Target<'g> {
+    pub gpu: &'g Gpu,
+    pub camera: wgpu::Buffer,
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+    encoder: wgpu::CommandEncoder,
+    stamps: Option<wgpu::QuerySet>,
+    passes: Vec<String>,
+}
+
+impl<'g> Target<'g> {
+    /// A black frame.
+    pub fn new(gpu: &'g Gpu, camera: &Camera) -> Result<Target<'g>, GpuError> {
+        let (width_px, height_px) = (camera.width_px, camera.height_px);
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        if width_px.max(height_px) > limit {
+            return Err(GpuError::TooLarge { width_px, height_px, limit });
+        }
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("frame"),
+            size: wgpu::Extent3d { width: width_px, height: height_px, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FRAME_FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let stamps = gpu.keeps_time().then(|| {
+            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("pass times"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * TIMED_PASSES,
+            })
+        });
+        let uniform = CameraUniform::of(camera);
+        Ok(Target {
+            camera: gpu.buffer("camera", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
+            view: texture.create_view(&Default::default()),
+            texture,
+            encoder: gpu.device.create_command_encoder(&Default::default()),
+            stamps,
+            passes: Vec::new(),
+            gpu,
+        })
+    }
+
+    /// Records one pass over the frame. The first one finds it black.
+    pub fn pass(&mut self, label: &str, draw: impl FnOnce(&mut wgpu::RenderPass)) {
+        let number = self.passes.len() as u32;
+        let load = match number {
+            0 => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            _ => wgpu::LoadOp::Load,
+        };
+        let stamps = self.stamps.as_ref().filter(|_| number < TIMED_PASSES);
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+            })],
+            timestamp_writes: stamps.map(|query_set| wgpu::RenderPassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(2 * number),
+                end_of_pass_write_index: Some(2 * number + 1),
+            }),
+            ..Default::default()
+        });
+        draw(&mut pass);
+        drop(pass);
+        self.passes.push(label.to_owned());
+    }
+
+    /// A bind group of pass resources, the camera first.
+    pub fn bind(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        buffers: &[&wgpu::Buffer],
+    ) -> wgpu::BindGroup {
+        let buffers = [&[&self.camera], buffers].concat();
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+
+    /// Draws everything recorded and brings the frame and the times back.
+    pub fn finish(mut self) -> Result<Rendered, GpuError> {
+        let stamps = self.resolve_stamps();
+        self.gpu.queue.submit([self.encoder.finish()]);
+        let times = match stamps {
+            Some(buffer) => pass_times(self.gpu, &buffer, &self.passes)?,
+            None => Vec::new(),
+        };
+        Ok(Rendered { frame: read_back(self.gpu, &self.texture)?, times })
+    }
+
+    /// Has the time stamps of the passes copied to a buffer that can be read.
+    fn resolve_stamps(&mut self) -> Option<wgpu::Buffer> {
+        let stamps = self.stamps.as_ref()?;
+        let count = 2 * (self.passes.len() as u32).min(TIMED_PASSES);
+        let size = u64::from(count) * 8;
+        let resolved = self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("pass times"),
+            size,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        self.encoder.resolve_query_set(stamps, 0..count, &resolved, 0);
+        let readable = readable_buffer(self.gpu, size);
+        self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
+        Some(readable)
+    }
+}
+
+fn readable_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read-back"),
+        size,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Waits for a buffer and hands its bytes over.
+fn with_bytes<T>(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    use_bytes: impl FnOnce(&[u8]) -> T,
+) -> Result<T, GpuError> {
+    let lost = |error: &dyn std::fmt::Display| GpuError::Lost(error.to_string());
+    let (sender, receiver) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        // The receiver waits below; if it is gone, nobody wants the answer.
+        let _ = sender.send(result);
+    });
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| lost(&e))?;
+    receiver.recv().map_err(|e| lost(&e))?.map_err(|e| lost(&e))?;
+    let view = buffer.get_mapped_range(..).map_err(|e| lost(&e))?;
+    let result = use_bytes(&view);
+    drop(view);
+    buffer.unmap();
+    Ok(result)
+}
+
+fn pass_times(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    passes: &[String],
+) -> Result<Vec<PassTime>, GpuError> {
+    let nanoseconds_per_tick = f64::from(gpu.queue.get_timestamp_period());
+    with_bytes(gpu, buffer, |bytes| {
+        let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(bytes);
+        stamps
+            .chunks_exact(2)
+            .zip(passes)
+            .map(|(pair, pass)| PassTime {
+                pass: pass.clone(),
+                milliseconds: pair[1].saturating_sub(pair[0]) as f64 * nanoseconds_per_tick / 1e6,
+            })
+            .collect()
+    })
+}
+
+/// Copies a frame to memory, band by band so that its size is bounded by the frame alone.
+fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<HdrFrame, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = (u64::from(width) * PIXEL_BYTES)
+        .next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+    let band_rows = (BAND_BYTES / row).clamp(1, u64::from(height)) as u32;
+    let buffer = readable_buffer(gpu, row * u64::from(band_rows));
+    let mut frame = Image::filled(width, height, [0.0f32; 4]);
+    let mut first = 0;
+    while first < height {
+        let rows = band_rows.min(height - first);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo {
+                texture,
+                mip_level: 0,
+                origin: wgpu::Origin3d { x: 0, y: first, z: 0 },
+                aspect: wgpu::TextureAspect::All,
+            },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row as u32),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d { width, height: rows, depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let start = (first * width) as usize;
+        let into = &mut frame.pixels_mut()[start..start + (rows * width) as usize];
+        with_bytes(gpu, &buffer, |bytes| {
+            for (pixels, line) in
+                into.chunks_exact_mut(width as usize).zip(bytes.chunks(row as usize))
+            {
+                let line = &line[..pixels.len() * PIXEL_BYTES as usize];
+                bytemuck::cast_slice_mut::<[f32; 4], u8>(pixels).copy_from_slice(line);
+            }
+        })?;
+        first += rows;
+    }
+    Ok(frame)
+}
