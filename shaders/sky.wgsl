@@ -46,7 +46,8 @@ fn skylight(dir: vec3f) -> LuminanceXyzv {
     var light = mix(table[dark], table[dark + 1u], row - f32(r0));
     for (var source = 0u; source < 2u; source++) {
         if sky.source_shines[source] != 0u {
-            let from_source = acos(clamp(cos(azimuth - sky.source_azimuth[source]), -1.0, 1.0));
+            let turned = abs(azimuth - sky.source_azimuth[source]);
+            let from_source = abs(turned - 2.0 * PI * round(turned / (2.0 * PI)));
             light += scattered(source, from_source, row);
         }
     }

@@ -2,8 +2,12 @@
 
 pub mod camera;
 pub mod catalog;
+pub mod export;
+pub mod eye;
 pub mod frame;
 pub mod image;
+#[cfg(feature = "cli")]
+pub mod overlay;
 pub mod place;
 pub mod plan;
 #[cfg(feature = "gpu")]

@@ -5,12 +5,12 @@
 
 pub mod gpu;
 pub mod shaders;
+pub mod uniforms;
 
 mod discs;
 mod sky;
 mod splats;
 mod target;
-mod uniforms;
 
 use crate::image::HdrFrame;
 use crate::plan::FramePlan;

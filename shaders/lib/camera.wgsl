@@ -31,7 +31,11 @@ fn theta_from_radius(projection: u32, radius: f32) -> Radians {
     switch projection {
         case PERSPECTIVE: { return atan(radius); }
         case STEREOGRAPHIC: { return 2.0 * atan(0.5 * radius); }
-        case EQUAL_AREA: { return select(2.0 * asin(min(0.5 * radius, 1.0)), -1.0, radius > 2.0); }
+        case EQUAL_AREA: {
+            // The arctangent keeps its digits where the arcsine of a GPU does not.
+            let half = min(0.5 * radius, 1.0);
+            return select(2.0 * atan2(half, sqrt(1.0 - half * half)), -1.0, radius > 2.0);
+        }
         default: { return select(radius, -1.0, radius > PI); }
     }
 }

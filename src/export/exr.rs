@@ -1,0 +1,87 @@
+//! OpenEXR: the frame itself, linear and absolute, for those who make their own picture of it.
+//!
+//! Channels `X`, `Y`, `Z` and `V` hold cd/m2 in 32-bit floats: CIE 1931 tristimulus values with
+//! 683 lm/W and CIE 1951 scotopic luminance with 1700 lm/W.
+
+use std::io;
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image as ExrImage, Layer,
+    LayerAttributes, Text, WritableImage,
+};
+
+use crate::image::HdrFrame;
+
+use super::{ExportError, OutputFile};
+
+/// What the file says about itself.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Attribute {
+    Text(String),
+    Number(f64),
+}
+
+/// Names of the channels, in the order of a pixel of the frame.
+const CHANNELS: [&str; 4] = ["X", "Y", "Z", "V"];
+
+/// Writes a frame with named attributes.
+pub fn write(
+    file: OutputFile,
+    frame: &HdrFrame,
+    attributes: &[(&str, Attribute)],
+) -> Result<(), ExportError> {
+    let channels = CHANNELS.iter().enumerate().map(|(index, name)| {
+        let samples = frame.pixels().iter().map(|pixel| pixel[index]).collect();
+        AnyChannel::new(*name, FlatSamples::F32(samples))
+    });
+    let mut about = LayerAttributes::named("sky");
+    about.software_name = Some(Text::from("Nocturne"));
+    for (name, value) in attributes {
+        let value = match value {
+            Attribute::Text(text) => AttributeValue::Text(Text::from(text.as_str())),
+            Attribute::Number(number) => AttributeValue::F64(*number),
+        };
+        about.other.insert(Text::from(*name), value);
+    }
+    let size = (frame.width_px() as usize, frame.height_px() as usize);
+    let layer =
+        Layer::new(size, about, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.collect()));
+    let image = ExrImage::from_layer(layer);
+    file.write(|writer| {
+        // The format wants to seek, which it does less in memory than on a disk.
+        let mut bytes = io::Cursor::new(Vec::new());
+        image.write().to_buffered(&mut bytes).map_err(io::Error::other)?;
+        io::Write::write_all(writer, bytes.get_ref())
+    })
+}
+
+/// Reads a frame back, with its text attributes: for tests and for tools that compare frames.
+pub fn read(path: &std::path::Path) -> Result<(HdrFrame, Vec<(String, String)>), ExportError> {
+    let fail = |source| ExportError::Read { path: path.display().to_string(), source };
+    let other = |error: exr::error::Error| fail(io::Error::other(error.to_string()));
+    let image = exr::prelude::read_first_flat_layer_from_file(path).map_err(other)?;
+    let layer = image.layer_data;
+    let mut frame = crate::image::Image::filled(
+        layer.size.width() as u32,
+        layer.size.height() as u32,
+        [0.0f32; 4],
+    );
+    for (index, name) in CHANNELS.iter().enumerate() {
+        let channel = layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
+        let channel =
+            channel.ok_or_else(|| fail(io::Error::other(format!("no channel {name}"))))?;
+        for (pixel, value) in frame.pixels_mut().iter_mut().zip(channel.sample_data.values_as_f32())
+        {
+            pixel[index] = value;
+        }
+    }
+    let texts = layer.attributes.other.iter().map(|(name, value)| {
+        let value = match value {
+            AttributeValue::Text(text) => text.to_string(),
+            AttributeValue::F64(number) => number.to_string(),
+            other => format!("{other:?}"),
+        };
+        (name.to_string(), value)
+    });
+    Ok((frame, texts.collect()))
+}

@@ -1,0 +1,304 @@
+//! What the GPU draws, by measured radiance. Without an adapter every test here is reported as
+//! ignored.
+
+use libtest_mimic::{Arguments, Failed, Trial};
+
+use glam::DMat3;
+use nocturne::camera::{Camera, Projection};
+use nocturne::frame::{Apparent, Dir, Horizon};
+use nocturne::image::HdrFrame;
+use nocturne::plan::disc::{AlbedoMap, Disc, DiscNode, DiscShape, NODES, SurfaceLaw};
+use nocturne::plan::{
+    FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, SourceSky, Splat, sky_table_altitude,
+    sky_table_azimuth,
+};
+use nocturne::render::Renderer;
+use nocturne::units::{Angle, Xyzv};
+
+const PROJECTIONS: [(Projection, f64); 6] = [
+    (Projection::Perspective, 20.0),
+    (Projection::Perspective, 120.0),
+    (Projection::Stereographic, 120.0),
+    (Projection::Equidistant, 180.0),
+    (Projection::EqualArea, 180.0),
+    (Projection::Equirectangular, 360.0),
+];
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let tests: [(&str, fn(&Renderer) -> Result<(), Failed>); 6] = [
+        ("splats_conserve_flux_and_place", splats_conserve_flux_and_place),
+        ("an_empty_plan_is_black", an_empty_plan_is_black),
+        ("the_sky_table_is_looked_up_where_the_camera_looks", the_sky_table_is_looked_up),
+        ("discs_conserve_flux_at_any_size", discs_conserve_flux_at_any_size),
+        ("the_moon_is_lit_from_the_sun_and_stands_upright", the_moon_is_lit_from_the_sun),
+        ("the_frame_holds_a_faint_star_and_the_sun", the_frame_holds_a_faint_star_and_the_sun),
+    ];
+    let renderer = Renderer::new();
+    let (renderer, ignored): (Option<&'static Renderer>, bool) = match renderer {
+        Ok(renderer) => (Some(Box::leak(Box::new(renderer))), false),
+        Err(error) => {
+            eprintln!("GPU tests are ignored: {error}");
+            (None, true)
+        }
+    };
+    let trials = tests
+        .into_iter()
+        .map(|(name, test)| {
+            Trial::test(name, move || match renderer {
+                Some(renderer) => test(renderer),
+                None => Err("no adapter".into()),
+            })
+            .with_ignored_flag(ignored)
+        })
+        .collect();
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn check(holds: bool, message: impl Fn() -> String) -> Result<(), Failed> {
+    if holds { Ok(()) } else { Err(message().into()) }
+}
+
+fn camera(projection: Projection, fov_deg: f64, width_px: u32, height_px: u32) -> Camera {
+    Camera {
+        projection,
+        field_of_view: Angle::from_deg(fov_deg),
+        azimuth: Angle::from_deg(130.0),
+        altitude: Angle::from_deg(35.0),
+        roll: Angle::ZERO,
+        width_px,
+        height_px,
+    }
+}
+
+fn dark_plan(camera: Camera) -> FramePlan {
+    let sky = SkyPlan {
+        sun: None,
+        moon: None,
+        dark: vec![Xyzv::BLACK; SKY_ALTITUDES],
+        ground: Xyzv::BLACK,
+    };
+    FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
+}
+
+fn drawn(renderer: &Renderer, plan: &FramePlan) -> Result<HdrFrame, Failed> {
+    Ok(renderer.frame(plan).map_err(|error| error.to_string())?.frame)
+}
+
+/// Illuminance of a window of pixels, and the centroid of its luminance times solid angle.
+fn measured(
+    frame: &HdrFrame,
+    camera: &Camera,
+    centre: [f64; 2],
+    reach_px: f64,
+) -> (Xyzv, [f64; 2]) {
+    let (mut sum, mut centroid) = (Xyzv::BLACK, [0.0, 0.0]);
+    for y in 0..frame.height_px() {
+        for x in 0..frame.width_px() {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            if (pixel[0] - centre[0]).abs() > reach_px || (pixel[1] - centre[1]).abs() > reach_px {
+                continue;
+            }
+            let light = frame.xyzv(x, y) * camera.pixel_solid_angle_sr(pixel);
+            sum += light;
+            centroid[0] += pixel[0] * light.y;
+            centroid[1] += pixel[1] * light.y;
+        }
+    }
+    (sum, centroid.map(|c| c / sum.y))
+}
+
+fn splats_conserve_flux_and_place(renderer: &Renderer) -> Result<(), Failed> {
+    let illuminance = Xyzv::new(3e-7, 2.54e-7, 2e-7, 5e-7);
+    for (projection, fov_deg) in PROJECTIONS {
+        for (width_px, height_px) in [(640, 360), (1920, 1080)] {
+            let camera = camera(projection, fov_deg, width_px, height_px);
+            let (w, h) = (f64::from(width_px), f64::from(height_px));
+            let centres = [
+                [0.5 * w, 0.5 * h],
+                [0.31 * w + 0.123, 0.52 * h + 0.877],
+                [0.55 * w + 0.5, 0.21 * h],
+                [0.68 * w + 0.25, 0.78 * h + 0.75],
+            ];
+            let splats = centres.map(|centre_px| Splat { centre_px, illuminance }).to_vec();
+            let frame = drawn(renderer, &FramePlan { splats, ..dark_plan(camera) })?;
+            for centre in centres {
+                let (sum, at) = measured(&frame, &camera, centre, 4.0);
+                let error =
+                    (sum.y / illuminance.y - 1.0).abs().max((sum.v / illuminance.v - 1.0).abs());
+                check(error < 1e-4, || {
+                    format!("{projection:?} {fov_deg}°: flux is off by {error}")
+                })?;
+                let off = (at[0] - centre[0]).hypot(at[1] - centre[1]);
+                check(off < 0.01, || format!("{projection:?} {fov_deg}°: off by {off} px"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn an_empty_plan_is_black(renderer: &Renderer) -> Result<(), Failed> {
+    let plan = dark_plan(camera(Projection::Perspective, 60.0, 65, 33));
+    let frame = drawn(renderer, &plan)?;
+    check((frame.width_px(), frame.height_px()) == (65, 33), || "wrong size".to_owned())?;
+    check(frame.pixels().iter().all(|p| *p == [0.0; 4]), || "not black".to_owned())
+}
+
+fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
+    // Tables that hold their own coordinates: X the azimuth from the Sun, Y that from the Moon,
+    // Z the altitude, all in degrees.
+    let (sun_azimuth, moon_azimuth) = (Angle::from_deg(75.0), Angle::from_deg(290.0));
+    let table = |channel: fn(f64) -> Xyzv| -> Vec<Xyzv> {
+        let azimuths = (0..SKY_AZIMUTHS).map(|column| channel(sky_table_azimuth(column).deg()));
+        std::iter::repeat_n(azimuths.collect::<Vec<_>>(), SKY_ALTITUDES).flatten().collect()
+    };
+    let sky = SkyPlan {
+        sun: Some(SourceSky {
+            azimuth: sun_azimuth,
+            luminance: table(|a| Xyzv::new(a, 0.0, 0.0, 0.0)),
+        }),
+        moon: Some(SourceSky {
+            azimuth: moon_azimuth,
+            luminance: table(|a| Xyzv::new(0.0, a, 0.0, 0.0)),
+        }),
+        dark: (0..SKY_ALTITUDES)
+            .map(|row| Xyzv::new(0.0, 0.0, sky_table_altitude(row).deg(), 1.0))
+            .collect(),
+        ground: Xyzv::new(-1.0, -1.0, -1.0, 2.0),
+    };
+    for (projection, fov_deg) in PROJECTIONS {
+        let camera = camera(projection, fov_deg, 320, 180);
+        let plan = FramePlan { sky: sky.clone(), ..dark_plan(camera) };
+        let frame = drawn(renderer, &plan)?;
+        for (x, y) in [(5u32, 3u32), (160, 90), (300, 20), (40, 120), (250, 170), (160, 179)] {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let Some(view) = camera.view_from_pixel(pixel) else {
+                check(frame.at(x, y) == [0.0; 4], || format!("{projection:?}: light off the sky"))?;
+                continue;
+            };
+            let dir: Dir<Apparent> = camera.view_from_apparent().inverse() * view;
+            if dir.altitude().deg() < -1.0 {
+                check(frame.at(x, y)[3] == 2.0, || {
+                    format!("{projection:?}: no ground at {x} {y}")
+                })?;
+                continue;
+            }
+            if dir.altitude().deg() < 1.0 {
+                continue;
+            }
+            let from = |azimuth: Angle| (dir.azimuth() - azimuth).signed().abs().deg();
+            let seen = frame.xyzv(x, y);
+            // Azimuths are linear in the table; altitudes go with the square of the row, so the
+            // straight line between two rows errs by up to an eighth of a step's curvature.
+            let near = (seen.x - from(sun_azimuth)).abs() < 0.02
+                && (seen.y - from(moon_azimuth)).abs() < 0.02
+                && (seen.z - dir.altitude().deg()).abs() < 0.01;
+            check(near && seen.v == 1.0, || {
+                format!(
+                    "{projection:?} {x},{y}: {seen:?}, expected {} {} {}",
+                    from(sun_azimuth),
+                    from(moon_azimuth),
+                    dir.altitude().deg()
+                )
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// A body without air in the middle of the picture.
+fn disc_plan(camera: Camera, law: SurfaceLaw, radius: Angle, phase_deg: f64) -> FramePlan {
+    let altitude = camera.altitude;
+    let centre: Dir<Horizon> = Dir::from_azimuth_altitude(camera.azimuth, altitude);
+    // The Sun stands to the right of the body, and nearer to the observer the smaller the phase.
+    let right: Dir<Horizon> =
+        Dir::from_azimuth_altitude(camera.azimuth + Angle::from_deg(90.0), Angle::ZERO);
+    let (sin, cos) = Angle::from_deg(phase_deg).sin_cos();
+    let up = right.vector().cross(centre.vector());
+    let shape = DiscShape {
+        centre,
+        angular_radius: radius,
+        dir_to_sun: Dir::from_vector(right.vector() * sin - centre.vector() * cos),
+        // The body's x axis points at the observer and its z axis to the top of the picture.
+        body_from_horizon: DMat3::from_cols(-centre.vector(), right.vector(), up).transpose(),
+        law,
+    };
+    let step = radius * (2.0 / (NODES - 1) as f64);
+    let lowest = altitude - radius;
+    let node = |index: usize| DiscNode {
+        geometric_altitude: lowest + step * index as f64,
+        luminance: Xyzv::new(0.9, 1.0, 1.1, 2.0),
+    };
+    let half = radius.rad() * camera.focal_px() * 1.1 + 2.0;
+    let middle = [f64::from(camera.width_px) / 2.0, f64::from(camera.height_px) / 2.0];
+    let across_px = 2.0 * radius.rad() * camera.focal_px();
+    let disc = Disc {
+        label: "body",
+        shape,
+        bounds_px: [middle.map(|m| m - half), middle.map(|m| m + half)],
+        lowest,
+        step,
+        nodes: std::array::from_fn(node),
+        samples: ((48.0 / across_px).ceil() as u32).clamp(1, 8),
+    };
+    FramePlan { discs: vec![disc], ..dark_plan(camera) }
+}
+
+fn moon_map() -> SurfaceLaw {
+    // The northern half is twice as bright as the southern one.
+    let width = 64;
+    let half = width * width / 4;
+    let albedo = [vec![1.0; half], vec![0.5; half]].concat();
+    SurfaceLaw::Moon { map: AlbedoMap { width, albedo } }
+}
+
+fn discs_conserve_flux_at_any_size(renderer: &Renderer) -> Result<(), Failed> {
+    let sun = SurfaceLaw::Sun { limb_darkening: [0.3, 0.93, -0.23, 0.0, 0.0, 0.0] };
+    for (law, phase_deg) in [(sun, 0.0), (SurfaceLaw::Lambert, 70.0), (moon_map(), 40.0)] {
+        for across_px in [6.0, 13.0, 60.0, 200.0] {
+            let camera = camera(Projection::Stereographic, 40.0, 320, 320);
+            let radius = Angle::from_rad(across_px / 2.0 / camera.focal_px());
+            let plan = disc_plan(camera, law.clone(), radius, phase_deg);
+            let shape = &plan.discs[0].shape;
+            let expected = shape.mean() * shape.solid_angle_sr();
+            let frame = drawn(renderer, &plan)?;
+            let (sum, _) = measured(&frame, &camera, [160.0, 160.0], 160.0);
+            let error = (sum.y / expected - 1.0).abs();
+            check(error < 0.01, || format!("{law:?} {across_px} px: flux is off by {error}"))?;
+        }
+    }
+    Ok(())
+}
+
+fn the_moon_is_lit_from_the_sun(renderer: &Renderer) -> Result<(), Failed> {
+    let camera = camera(Projection::Perspective, 1.0, 201, 201);
+    let plan = disc_plan(camera, moon_map(), Angle::from_arcmin(16.0), 90.0);
+    let frame = drawn(renderer, &plan)?;
+    let y = |x, y| frame.xyzv(x, y).y;
+    check(y(130, 80) > 0.0 && y(70, 80) == 0.0, || "not lit from the right".to_owned())?;
+    let ratio = y(130, 60) / y(130, 140);
+    check((ratio - 2.0).abs() < 0.05, || format!("north is not up: {ratio}"))?;
+    // Half of the disc is lit at quarter: the terminator runs through the centre.
+    check(y(102, 90) > 0.0 && y(98, 90) == 0.0, || "the terminator is off".to_owned())
+}
+
+fn the_frame_holds_a_faint_star_and_the_sun(renderer: &Renderer) -> Result<(), Failed> {
+    let camera = camera(Projection::Perspective, 40.0, 320, 180);
+    let luminance = 2e9;
+    let faint = Xyzv::new(1e-6, 1e-6, 1e-6, 1e-6);
+    let mut plan = disc_plan(
+        camera,
+        SurfaceLaw::Sun { limb_darkening: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0] },
+        Angle::from_deg(1.0),
+        0.0,
+    );
+    for node in &mut plan.discs[0].nodes {
+        node.luminance = Xyzv::new(luminance, luminance, luminance, luminance);
+    }
+    plan.sky.dark.fill(faint);
+    let frame = drawn(renderer, &plan)?;
+    let sun = frame.xyzv(160, 90).y;
+    check((sun / luminance - 1.0).abs() < 1e-6, || format!("the Sun is {sun}"))?;
+    let sky = frame.xyzv(5, 5).y;
+    check((sky / 1e-6 - 1.0).abs() < 1e-6, || format!("the sky is {sky}"))
+}

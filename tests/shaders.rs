@@ -1,0 +1,79 @@
+//! Every assembled shader parses and validates, and its structs lie in memory as the Rust ones
+//! do. Needs no GPU.
+
+use std::mem::offset_of;
+
+use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
+use nocturne::render::uniforms::{CameraUniform, DiscUniform, SkyUniform};
+
+fn parsed(name: &str, source: &str) -> naga::Module {
+    let module = naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+    let flags = naga::valid::ValidationFlags::all();
+    let capabilities = naga::valid::Capabilities::empty();
+    naga::valid::Validator::new(flags, capabilities)
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+    module
+}
+
+/// Names and offsets of the members of a struct, and its size.
+fn layout(module: &naga::Module, name: &str) -> (Vec<(String, usize)>, usize) {
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));
+    let (_, ty) = found.unwrap_or_else(|| panic!("no struct {name}"));
+    let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{name}: no struct") };
+    let members = members
+        .iter()
+        .map(|member| (member.name.clone().unwrap_or_default(), member.offset as usize))
+        .collect();
+    (members, *span as usize)
+}
+
+macro_rules! same_layout {
+    ($module:expr, $name:literal, $uniform:ty, [$($member:ident),*]) => {
+        let (members, size) = layout(&$module, $name);
+        let rust = vec![$((stringify!($member).to_owned(), offset_of!($uniform, $member))),*];
+        assert_eq!(members, rust, $name);
+        assert_eq!(size, size_of::<$uniform>(), $name);
+    };
+}
+
+#[test]
+fn every_shader_is_valid() {
+    for (name, _) in SHADERS {
+        parsed(name, &assembled(name));
+    }
+    parsed("library", &LIBRARY.join("\n"));
+}
+
+#[test]
+fn uniforms_have_one_layout_on_both_sides() {
+    let sky = parsed("sky", &assembled("sky"));
+    same_layout!(sky, "Camera", CameraUniform, [apparent_from_view, size_px, focal_px, projection]);
+    same_layout!(
+        sky,
+        "Sky",
+        SkyUniform,
+        [source_azimuth, source_shines, azimuths, altitudes, half_pixel, padding, ground]
+    );
+    let discs = parsed("discs", &assembled("discs"));
+    same_layout!(
+        discs,
+        "Disc",
+        DiscUniform,
+        [
+            first_px,
+            last_px,
+            centre,
+            to_sun,
+            body_from_horizon,
+            limb,
+            lowest_rad,
+            step_rad,
+            samples,
+            map_width,
+            luminance,
+            geometric_altitude
+        ]
+    );
+}
