@@ -1,7 +1,35 @@
 //! The data that the project ships: found, checked and read here and nowhere else.
+//!
+//! [`Catalogs::locate`] finds the directory, and each reader gives the whole of one file or one
+//! sentence that says what is wrong with it. `catalogs/SOURCES.toml` says where every file comes
+//! from; [`pack`] makes the files out of the raw tables.
+
+use std::env;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
 
 use crate::frame::{Dir, Icrs};
 use crate::units::Magnitude;
+
+mod bsc5;
+mod colour;
+mod csv;
+pub mod moon;
+pub mod pack;
+pub mod places;
+mod seal;
+pub mod stars;
+
+pub use moon::MoonMap;
+pub use seal::sha256_hex;
+
+const STARS_FILE: &str = "stars.bin";
+const PLACES_FILE: &str = "places.csv";
+const MOON_FILE: &str = "moon_albedo.bin";
+const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
 /// A star of the Yale Bright Star Catalogue, 5th edition (Hoffleit & Warren 1991).
 #[derive(Debug, Clone, PartialEq)]
@@ -30,4 +58,145 @@ pub struct Star {
     pub b_v: f64,
     /// Spectral type as the catalogue writes it.
     pub spectral_type: String,
+}
+
+/// What can be wrong with the data files.
+#[derive(Debug, Error)]
+pub enum CatalogError {
+    #[error(
+        "no {STARS_FILE} in {looked}; set {ENVIRONMENT_VARIABLE} to the directory of the catalogues"
+    )]
+    NotFound { looked: String },
+    #[error("{path}: {source}; run `cargo run --bin pack`, or fetch the file again")]
+    Unreadable { path: PathBuf, source: io::Error },
+    #[error("{path} {what}; run `cargo run --bin pack`, or fetch the file again")]
+    Damaged { path: PathBuf, what: String },
+    #[error("{path}: {source}; fetch the raw table again from where SOURCES.toml says")]
+    RawUnreadable { path: PathBuf, source: io::Error },
+    #[error("{path}, line {line}: {what}; fetch the raw table again, or mend the packing")]
+    Raw { path: PathBuf, line: usize, what: String },
+    #[error("the picture of the Moon {what}; give the map named in SOURCES.toml")]
+    Picture { what: String },
+    #[error("SOURCES.toml has no path and sha256 for {file}; add a [[file]] table for it")]
+    NoSource { file: &'static str },
+    #[error("{path} cannot be written: {source}")]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// The directory that holds the catalogues.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Catalogs {
+    directory: PathBuf,
+}
+
+impl Catalogs {
+    /// Finds the directory: the one given; else the one that the environment variable
+    /// `NOCTURNE_CATALOGS` names; else `catalogs/` beside the program, `../share/nocturne/catalogs`
+    /// from it, or `catalogs/` in the source tree that it was built from.
+    ///
+    /// A directory that is given or named in the environment must hold the catalogues: there is no
+    /// silent step to the next.
+    pub fn locate(explicit: Option<&Path>) -> Result<Catalogs, CatalogError> {
+        let environment = env::var_os(ENVIRONMENT_VARIABLE).filter(|value| !value.is_empty());
+        let program = env::current_exe().ok();
+        Catalogs::locate_among(&candidates(
+            explicit,
+            environment.as_ref().map(Path::new),
+            program.as_deref(),
+        ))
+    }
+
+    fn locate_among(candidates: &[PathBuf]) -> Result<Catalogs, CatalogError> {
+        match candidates.iter().find(|directory| directory.join(STARS_FILE).is_file()) {
+            Some(directory) => Ok(Catalogs { directory: directory.clone() }),
+            None => {
+                let looked: Vec<_> =
+                    candidates.iter().map(|path| path.display().to_string()).collect();
+                Err(CatalogError::NotFound { looked: looked.join(" or ") })
+            }
+        }
+    }
+
+    /// Where the catalogues are.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// All 9096 stars of the Bright Star Catalogue, in the order of HR.
+    pub fn stars(&self) -> Result<Vec<Star>, CatalogError> {
+        let records = self.read(STARS_FILE, |bytes| stars::decode(&bytes))?;
+        Ok(records.into_iter().map(Star::from).collect())
+    }
+
+    /// The gazetteer as a table: a line with [`places::COLUMNS`], then one line per place.
+    pub fn places_text(&self) -> Result<String, CatalogError> {
+        self.read(PLACES_FILE, places::open)
+    }
+
+    /// The reflectance of the Moon.
+    pub fn moon_map(&self) -> Result<MoonMap, CatalogError> {
+        self.read(MOON_FILE, |bytes| moon::decode(&bytes))
+    }
+
+    fn read<T>(
+        &self,
+        file: &str,
+        decode: impl Fn(Vec<u8>) -> Result<T, String>,
+    ) -> Result<T, CatalogError> {
+        let path = self.directory.join(file);
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(source) => return Err(CatalogError::Unreadable { path, source }),
+        };
+        decode(bytes).map_err(|what| CatalogError::Damaged { path, what })
+    }
+}
+
+/// The directories to look into, the first that holds the catalogues wins.
+fn candidates(
+    explicit: Option<&Path>,
+    environment: Option<&Path>,
+    program: Option<&Path>,
+) -> Vec<PathBuf> {
+    if let Some(named) = explicit.or(environment) {
+        return vec![named.to_owned()];
+    }
+    let beside = program.and_then(Path::parent).into_iter().flat_map(|directory| {
+        [directory.join("catalogs"), directory.join("../share/nocturne/catalogs")]
+    });
+    beside.chain([Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogs")]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_directory_that_was_named_is_the_only_candidate() {
+        let (given, environment) = (Path::new("given"), Path::new("environment"));
+        let program = Some(Path::new("bin/nocturne"));
+        assert_eq!(candidates(Some(given), Some(environment), program), [given]);
+        assert_eq!(candidates(None, Some(environment), program), [environment]);
+        let usual = candidates(None, None, program);
+        assert_eq!(usual[0], Path::new("bin/catalogs"));
+        assert_eq!(usual[1], Path::new("bin/../share/nocturne/catalogs"));
+        assert_eq!(usual[2], Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogs"));
+        assert_eq!(usual.len(), 3);
+    }
+
+    #[test]
+    fn the_first_candidate_that_holds_the_stars_wins() {
+        let root = tempfile::tempdir().unwrap();
+        let [empty, first, second] = ["empty", "first", "second"].map(|name| {
+            let directory = root.path().join(name);
+            fs::create_dir(&directory).unwrap();
+            directory
+        });
+        fs::write(first.join(STARS_FILE), "").unwrap();
+        fs::write(second.join(STARS_FILE), "").unwrap();
+        let found = Catalogs::locate_among(&[empty.clone(), first.clone(), second]).unwrap();
+        assert_eq!(found.directory(), first);
+        let message = Catalogs::locate_among(&[empty]).unwrap_err().to_string();
+        assert!(message.contains("empty") && message.contains("NOCTURNE_CATALOGS"), "{message}");
+    }
 }

@@ -1,0 +1,109 @@
+//! Makes the files in `catalogs/` out of the raw tables, or checks that they are what packing
+//! makes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use nocturne::catalog::pack::{self, Packed, SOURCES_FILE};
+use nocturne::catalog::sha256_hex;
+
+/// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
+const MOON_PICTURE: &str = "moon_lroc_color_4096x2048.jpg";
+
+/// Pack the raw tables into the catalogues that nocturne reads.
+#[derive(Parser)]
+struct Args {
+    /// Directory of the raw tables.
+    #[arg(long, value_name = "DIR", default_value = "catalogs/raw")]
+    raw: PathBuf,
+    /// Directory of the catalogues, with its SOURCES.toml.
+    #[arg(long, value_name = "DIR", default_value = "catalogs")]
+    out: PathBuf,
+    /// Picture of the Moon; without one the packed map stays as it is
+    /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
+    #[arg(long, value_name = "FILE")]
+    moon: Option<PathBuf>,
+    /// Write nothing; say whether packing gives the same bytes.
+    #[arg(long)]
+    check: bool,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("pack: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// True if all is well: written, or found to be the same.
+fn run(args: &Args) -> Result<bool, String> {
+    let mut packed = vec![
+        pack::stars(&args.raw).map_err(|error| error.to_string())?,
+        pack::places(&args.raw).map_err(|error| error.to_string())?,
+    ];
+    match moon_picture(args) {
+        Some(path) => packed.push(moon(&args.raw, &path)?),
+        None => println!(
+            "moon_albedo.bin: no {MOON_PICTURE} among the raw tables, the packed map stays as it is"
+        ),
+    }
+    if args.check {
+        return Ok(check(&args.out, &packed));
+    }
+    write(&args.out, &packed)?;
+    Ok(true)
+}
+
+fn moon_picture(args: &Args) -> Option<PathBuf> {
+    let usual = args.raw.join(MOON_PICTURE);
+    args.moon.clone().or_else(|| usual.is_file().then_some(usual))
+}
+
+fn moon(raw: &Path, picture: &Path) -> Result<Packed, String> {
+    let rgb = image::open(picture)
+        .map_err(|error| format!("{}: {error}; give a JPEG or PNG", picture.display()))?
+        .into_rgb8();
+    let size = (rgb.width() as usize, rgb.height() as usize);
+    pack::moon(raw, rgb.as_raw(), size).map_err(|error| error.to_string())
+}
+
+fn check(out: &Path, packed: &[Packed]) -> bool {
+    let mut same = true;
+    for packed in packed {
+        let path = out.join(packed.file);
+        let verdict = match fs::read(&path) {
+            Ok(bytes) if bytes == packed.bytes => "the same",
+            Ok(_) => "DIFFERENT; run `cargo run --bin pack`",
+            Err(_) => "MISSING; run `cargo run --bin pack`",
+        };
+        same &= verdict == "the same";
+        println!("{}: {verdict} ({})", path.display(), packed.summary);
+    }
+    same
+}
+
+fn write(out: &Path, packed: &[Packed]) -> Result<(), String> {
+    let sources_path = out.join(SOURCES_FILE);
+    let sources = fs::read_to_string(&sources_path)
+        .map_err(|error| format!("{}: {error}", sources_path.display()))?;
+    let sources =
+        pack::refresh_sources(&sources, packed).map_err(|error| error.to_string())?;
+    for packed in packed {
+        let path = out.join(packed.file);
+        pack::write_atomically(&path, &packed.bytes).map_err(|error| error.to_string())?;
+        println!(
+            "{}: {} bytes, SHA-256 {}… ({})",
+            path.display(),
+            packed.bytes.len(),
+            &sha256_hex(&packed.bytes)[..12],
+            packed.summary
+        );
+    }
+    pack::write_atomically(&sources_path, sources.as_bytes()).map_err(|error| error.to_string())
+}

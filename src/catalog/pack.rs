@@ -1,0 +1,159 @@
+//! From the raw tables to the files that the program reads.
+//!
+//! Same input, same bytes: no clock, no random order, no map that iterates as it likes.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use super::bsc5::{self, BscError};
+use super::moon::{self, Calibration};
+use super::places;
+use super::seal::sha256_hex;
+use super::stars;
+use super::{CatalogError, MOON_FILE, PLACES_FILE, STARS_FILE};
+
+/// The file that says where every other file comes from.
+pub const SOURCES_FILE: &str = "SOURCES.toml";
+
+const RAW_STARS: &str = "bsc5.csv";
+const RAW_NAMES: &str = "star_names_iau.csv";
+const RAW_PLACES: &str = "cities.csv";
+const RAW_CALIBRATION: &str = "moon_albedo_calibration.csv";
+
+/// A file to be written, by its name in the directory of the catalogues.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Packed {
+    pub file: &'static str,
+    pub bytes: Vec<u8>,
+    /// What was done, for people.
+    pub summary: String,
+}
+
+/// `stars.bin` from the Bright Star Catalogue and the names in the directory `raw`.
+pub fn stars(raw: &Path) -> Result<Packed, CatalogError> {
+    let (catalogue, names) = (read_text(raw, RAW_STARS)?, read_text(raw, RAW_NAMES)?);
+    let records = bsc5::records(&catalogue, &names).map_err(|error| match error {
+        BscError::Catalogue(error) => raw_error(raw, RAW_STARS, error),
+        BscError::Names(error) => raw_error(raw, RAW_NAMES, error),
+    })?;
+    let bytes = stars::encode(&records).map_err(|what| raw_error(raw, RAW_STARS, (1, what)))?;
+    let estimated = records.iter().filter(|star| star.b_v_estimated).count();
+    let named = records.iter().filter(|star| star.name.is_some()).count();
+    let summary = format!(
+        "{} stars, {named} with a name, {estimated} with B-V estimated from the spectral type",
+        records.len()
+    );
+    Ok(Packed { file: STARS_FILE, bytes, summary })
+}
+
+/// `places.csv` from the gazetteer in the directory `raw`.
+pub fn places(raw: &Path) -> Result<Packed, CatalogError> {
+    let cleaned = places::clean(&read_text(raw, RAW_PLACES)?)
+        .map_err(|error| raw_error(raw, RAW_PLACES, error))?;
+    let summary = format!(
+        "{} places; {} values corrected, {} elevations and {} time zones taken from neighbours",
+        cleaned.table.lines().count() - 1,
+        places::CORRECTIONS.len(),
+        cleaned.elevations_filled,
+        cleaned.timezones_filled
+    );
+    Ok(Packed { file: PLACES_FILE, bytes: places::seal(&cleaned.table), summary })
+}
+
+/// `moon_albedo.bin` from a picture (red, green, blue, a byte each; longitude -180° to 180° from
+/// left to right) and the calibration in the directory `raw`.
+pub fn moon(raw: &Path, rgb: &[u8], size: (usize, usize)) -> Result<Packed, CatalogError> {
+    let calibration = Calibration::from_csv(&read_text(raw, RAW_CALIBRATION)?)
+        .map_err(|error| raw_error(raw, RAW_CALIBRATION, error))?;
+    let bytes = moon::encode(rgb, size, &calibration)
+        .map_err(|what| CatalogError::Picture { what })?;
+    let (width, height) = moon::PACKED_SIZE;
+    let summary = format!("{width} x {height} pixels from {} x {}", size.0, size.1);
+    Ok(Packed { file: MOON_FILE, bytes, summary })
+}
+
+/// The text of `SOURCES.toml` with the SHA-256 of these files brought up to date.
+///
+/// In each `[[file]]` table the line `path = "..."` stands before the line `sha256 = "..."`.
+pub fn refresh_sources(sources: &str, packed: &[Packed]) -> Result<String, CatalogError> {
+    let mut refreshed = String::with_capacity(sources.len());
+    let mut current = None;
+    let mut done = Vec::new();
+    for line in sources.lines() {
+        if let Some(path) = line.strip_prefix("path = ") {
+            current = packed.iter().find(|packed| path.trim_matches('"') == packed.file);
+        }
+        match current {
+            Some(packed) if line.starts_with("sha256 = ") => {
+                refreshed += &format!("sha256 = \"{}\"", sha256_hex(&packed.bytes));
+                done.push(packed.file);
+            }
+            _ => refreshed += line,
+        }
+        refreshed.push('\n');
+    }
+    match packed.iter().find(|packed| !done.contains(&packed.file)) {
+        Some(packed) => Err(CatalogError::NoSource { file: packed.file }),
+        None => Ok(refreshed),
+    }
+}
+
+/// Writes a file so that at every moment either the old one or the whole new one is there.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
+    let failed = |source| CatalogError::Write { path: path.to_owned(), source };
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let directory = directory.unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".nocturne-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // Temporary files are private; what is kept should be as readable as any other file.
+        builder.permissions(fs::Permissions::from_mode(0o644));
+    }
+    let mut file = builder.tempfile_in(directory).map_err(failed)?;
+    file.write_all(bytes).map_err(failed)?;
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+fn read_text(directory: &Path, file: &str) -> Result<String, CatalogError> {
+    let path = directory.join(file);
+    fs::read_to_string(&path).map_err(|source| CatalogError::RawUnreadable { path, source })
+}
+
+fn raw_error(directory: &Path, file: &str, (line, what): (usize, String)) -> CatalogError {
+    CatalogError::Raw { path: directory.join(file), line, what }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_are_refreshed_in_their_own_table_only() {
+        let packed = Packed { file: STARS_FILE, bytes: b"abc".to_vec(), summary: String::new() };
+        let sources = "[[file]]\npath = \"stars.bin\"\nsource = \"x\"\nsha256 = \"0\"\n\n\
+            [[file]]\npath = \"places.csv\"\nsha256 = \"1\"\n";
+        let digest = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        let wanted = sources.replace("\"0\"", &format!("{digest:?}"));
+        assert_eq!(refresh_sources(sources, std::slice::from_ref(&packed)).unwrap(), wanted);
+        let other = Packed { file: MOON_FILE, ..packed };
+        let message = refresh_sources(sources, &[other]).unwrap_err().to_string();
+        assert!(message.contains("moon_albedo.bin"), "{message}");
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left_behind() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("file");
+        write_atomically(&path, b"old").unwrap();
+        write_atomically(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+        let nowhere = directory.path().join("missing/file");
+        assert!(matches!(write_atomically(&nowhere, b""), Err(CatalogError::Write { .. })));
+    }
+}
