@@ -1,7 +1,9 @@
 //! The night sky as it would really look: where everything stands, and how bright it is.
 
+pub mod air;
 pub mod catalog;
 pub mod frame;
+pub mod light;
 pub mod place;
 pub mod time;
 pub mod units;
