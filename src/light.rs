@@ -5,6 +5,9 @@
 //! of the ephemeris; what the air takes away is folded in by [`star_light`] and by
 //! [`crate::air::extinction`].
 
+pub mod diffuse;
+pub mod moon;
+pub mod planets;
 pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;

@@ -37,12 +37,20 @@ const LAYERS: [Layer; 8] = [
     layer(84.852, 186.946, 0.0, 0.003_733_8),
 ];
 
-/// Temperature (K) and pressure (mbar) at a geometric height above sea level, kilometres.
-fn temperature_and_pressure(height_km: f64) -> (f64, f64) {
-    let geopotential_km = GEOPOTENTIAL_RADIUS_KM * height_km / (GEOPOTENTIAL_RADIUS_KM + height_km);
+fn geopotential_km(height_km: f64) -> f64 {
+    GEOPOTENTIAL_RADIUS_KM * height_km / (GEOPOTENTIAL_RADIUS_KM + height_km)
+}
+
+fn layer_at(geopotential_km: f64) -> &'static Layer {
     let above = LAYERS.partition_point(|layer| layer.base_km <= geopotential_km);
     // What lies below the sea continues the lowest layer.
-    let layer = &LAYERS[above.max(1) - 1];
+    &LAYERS[above.max(1) - 1]
+}
+
+/// Temperature (K) and pressure (mbar) at a geometric height above sea level, kilometres.
+fn temperature_and_pressure(height_km: f64) -> (f64, f64) {
+    let geopotential_km = geopotential_km(height_km);
+    let layer = layer_at(geopotential_km);
     let rise_km = geopotential_km - layer.base_km;
     let temperature_k = layer.base_k + layer.slope_k_per_km * rise_km;
     let pressure_ratio = if layer.slope_k_per_km == 0.0 {
@@ -64,6 +72,15 @@ pub fn number_density_per_m3(height_km: f64) -> f64 {
     const PA: f64 = 100.0;
     let (temperature_k, pressure_mbar) = temperature_and_pressure(height_km);
     pressure_mbar * PA / (BOLTZMANN_J_K * temperature_k)
+}
+
+/// How fast the logarithm of the number density changes with height, per kilometre; negative.
+pub fn logarithmic_density_slope_per_km(height_km: f64) -> f64 {
+    let slope_k_per_km = layer_at(geopotential_km(height_km)).slope_k_per_km;
+    let (temperature_k, _) = temperature_and_pressure(height_km);
+    let geopotential_slope =
+        (GEOPOTENTIAL_RADIUS_KM / (GEOPOTENTIAL_RADIUS_KM + height_km)).powi(2);
+    -(HYDROSTATIC_K_PER_KM + slope_k_per_km) / temperature_k * geopotential_slope
 }
 
 #[cfg(test)]
@@ -99,6 +116,20 @@ mod tests {
         for (height_km, per_m3) in [(0.0, 2.5470e25), (20.0, 1.8486e24), (80.0, 3.8378e20)] {
             let got = number_density_per_m3(height_km);
             assert!((got / per_m3 - 1.0).abs() < 1e-3, "{height_km} km: {got:e}");
+        }
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_density() {
+        let step_km = 1e-4;
+        for height_km in [0.0, 5.0, 15.0, 25.0, 40.0, 49.0, 60.0, 80.0, 100.0] {
+            let (above, below) = (
+                number_density_per_m3(height_km + step_km),
+                number_density_per_m3(height_km - step_km),
+            );
+            let slope = (above / below).ln() / (2.0 * step_km);
+            let got = logarithmic_density_slope_per_km(height_km);
+            assert!((got / slope - 1.0).abs() < 1e-6, "{height_km} km: {got} {slope}");
         }
     }
 }
