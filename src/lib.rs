@@ -1,16 +1,23 @@
 //! The night sky as it would really look: where everything stands, and how bright it is.
 
-pub mod camera;
-pub mod catalog;
-pub mod export;
-pub mod eye;
 pub mod frame;
 pub mod image;
-#[cfg(feature = "cli")]
-pub mod overlay;
+pub mod units;
+
+pub mod camera;
+pub mod catalog;
 pub mod place;
+pub mod time;
+
+pub mod air;
+pub mod eye;
+
+pub mod light;
+
 pub mod plan;
 #[cfg(feature = "gpu")]
 pub mod render;
-pub mod time;
-pub mod units;
+
+pub mod export;
+#[cfg(feature = "cli")]
+pub mod overlay;
