@@ -1,5 +1,6 @@
 //! The night sky as it would really look: where everything stands, and how bright it is.
 
+pub mod air;
 pub mod catalog;
 pub mod frame;
 pub mod place;

@@ -1,0 +1,3 @@
+//! What lies between the eye and the light.
+
+pub mod scattering;
