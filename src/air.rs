@@ -12,6 +12,7 @@ use thiserror::Error;
 
 pub mod extinction;
 pub mod refraction;
+pub mod scattering;
 pub mod standard;
 
 use refraction::Refraction;

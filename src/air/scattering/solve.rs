@@ -1,0 +1,189 @@
+//! Solves for the diffuse field by iterating the whole of it: `M <- M1 + K M`.
+//!
+//! `M1` are the moments of the first order; `K` marches rays through the source function of the
+//! field and takes moments of what arrives. Iterating the total rather than adding orders keeps
+//! every node lit, also deep in the shadow.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::Resolution;
+use super::field::Field;
+use super::harmonics::{azimuthal_part, coefficient_count, gauss_legendre, index, zonal_part};
+use super::lanes::Lanes;
+use super::profile::Optics;
+use super::rays::{Geometry, Medium, Ray, RaySteps};
+use super::view::{Source, add_higher_orders, cos_horizon, first_order};
+
+/// The iteration ends here if it has not converged before.
+const MOST_ITERATIONS: usize = 30;
+
+/// How many directions to look in from a node, and how finely.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Directions {
+    /// Zenith distances above the horizon.
+    pub above: usize,
+    /// Zenith distances below the horizon.
+    pub below: usize,
+    /// Azimuths over the half circle from the source to the opposite side.
+    pub azimuths: usize,
+    pub steps: RaySteps,
+}
+
+/// A ray from a node, and its share of the sphere.
+struct Spoke {
+    altitude: usize,
+    ray: Ray,
+    /// Solid angle over `2 pi`.
+    weight: f64,
+}
+
+/// All rays from all nodes of a field: what moments are taken over.
+struct Sweep {
+    spokes: Vec<Spoke>,
+    /// Cosines of the azimuths.
+    azimuths: Vec<f64>,
+}
+
+/// Moments `[altitude][source][coefficient]` and downward irradiances at the ground `[source]`.
+struct Moments {
+    moments: Vec<Lanes>,
+    ground: Vec<Lanes>,
+}
+
+impl Sweep {
+    fn new(medium: &Medium, directions: &Directions) -> Sweep {
+        let mut starts = Vec::new();
+        for (altitude, &height_km) in medium.altitudes_km.iter().enumerate() {
+            // Dense next to the horizon, on both sides of it.
+            let horizon = cos_horizon(height_km);
+            for (t, w) in gauss_legendre(directions.above) {
+                let span = 1.0 - horizon;
+                starts.push((altitude, height_km, horizon + span * t * t, span * 2.0 * t * w));
+            }
+            for (t, w) in gauss_legendre(directions.below) {
+                let span = 1.0 + horizon;
+                starts.push((altitude, height_km, horizon - span * t * t, span * 2.0 * t * w));
+            }
+        }
+        let spokes = starts
+            .into_par_iter()
+            .map(|(altitude, height_km, cos_zenith, weight)| Spoke {
+                altitude,
+                ray: Ray::cut(medium, &directions.steps, height_km, cos_zenith),
+                weight,
+            })
+            .collect();
+        let n = directions.azimuths;
+        let azimuths = (0..n).map(|i| ((i as f64 + 0.5) * PI / n as f64).cos()).collect();
+        Sweep { spokes, azimuths }
+    }
+
+    /// Moments of a radiance, which is asked for all sources of one ray, azimuth innermost.
+    fn moments(
+        &self,
+        field: &Field,
+        radiance: impl Fn(&Ray, &[Source], &mut [Lanes]) + Sync,
+    ) -> Moments {
+        let cosines = &field.sources.cosines;
+        let seen: Vec<Vec<Lanes>> = self
+            .spokes
+            .par_iter()
+            .map(|spoke| {
+                let sources: Vec<Source> = cosines
+                    .iter()
+                    .flat_map(|&cos_source| {
+                        self.azimuths.iter().map(move |&cos_azimuth| {
+                            Source::new(cos_source, spoke.ray.cos_zenith, cos_azimuth)
+                        })
+                    })
+                    .collect();
+                let mut out = vec![Lanes::ZERO; sources.len()];
+                radiance(&spoke.ray, &sources, &mut out);
+                out
+            })
+            .collect();
+
+        let n_az = self.azimuths.len();
+        let (degree, stride) = (field.degree, coefficient_count(field.degree));
+        let mut moments = vec![Lanes::ZERO; field.altitudes_km.len() * cosines.len() * stride];
+        let mut ground = vec![Lanes::ZERO; cosines.len()];
+        for (spoke, seen) in self.spokes.iter().zip(&seen) {
+            let mu = spoke.ray.cos_zenith;
+            let sin2 = 1.0 - mu * mu;
+            let zonal = zonal_part(degree, mu);
+            let solid_angle = (spoke.weight * 2.0 * PI / n_az as f64) as f32;
+            let azimuthal: Vec<_> = self
+                .azimuths
+                .iter()
+                .map(|&a| azimuthal_part(degree, (sin2.sqrt() * a) as f32, sin2 as f32))
+                .collect();
+            let node = &mut moments[spoke.altitude * cosines.len() * stride..];
+            for (s, seen) in seen.chunks_exact(n_az).enumerate() {
+                let node = &mut node[s * stride..][..stride];
+                let mut sum = Lanes::ZERO;
+                for (c, &seen) in azimuthal.iter().zip(seen) {
+                    sum += seen;
+                    for l in 0..=degree {
+                        for m in 0..=l {
+                            let k = index(l, m);
+                            node[k] += seen * (zonal[k] * c[m] * solid_angle);
+                        }
+                    }
+                }
+                if spoke.altitude == 0 && mu > 0.0 {
+                    ground[s] += sum * (mu as f32 * solid_angle);
+                }
+            }
+        }
+        Moments { moments, ground }
+    }
+
+    /// `K`: moments of what the field sends along all rays.
+    fn gather(&self, medium: &Medium, field: &Field) -> Moments {
+        self.moments(field, |ray, sources, out| {
+            let mut row = vec![Lanes::ZERO; field.row_len()];
+            add_higher_orders(medium, field, ray, sources, &mut row, out);
+        })
+    }
+}
+
+/// The diffuse field of a distant source of unit irradiance.
+pub(crate) fn solve(geometry: &Geometry, optics: &Optics, resolution: &Resolution) -> Field {
+    let field = Field::new(resolution.degree, resolution.altitudes);
+    let altitudes_km = field.altitudes_km.clone();
+    let medium =
+        Medium { geometry, optics, altitudes_km: &altitudes_km, degree: resolution.degree };
+    let first =
+        Sweep::new(&medium, &resolution.first_order).moments(&field, |ray, sources, out| {
+            for (source, out) in sources.iter().zip(out.iter_mut()) {
+                *out = first_order(&medium, ray, *source);
+            }
+        });
+    let sweep = Sweep::new(&medium, &resolution.higher_orders);
+    iterate(&medium, &sweep, &first, field, resolution.tolerance)
+}
+
+/// Fixed point of `M = first + K M`, to a change of `ln M_00` below `tolerance`.
+fn iterate(
+    medium: &Medium,
+    sweep: &Sweep,
+    first: &Moments,
+    mut field: Field,
+    tolerance: f32,
+) -> Field {
+    let add = |a: &[Lanes], b: &[Lanes]| -> Vec<Lanes> {
+        a.iter().zip(b).map(|(&a, &b)| a + b).collect()
+    };
+    field.set(&first.moments, &first.ground);
+    for _ in 0..MOST_ITERATIONS {
+        let higher = sweep.gather(medium, &field);
+        let moments = add(&first.moments, &higher.moments);
+        let ground = add(&first.ground, &higher.ground);
+        if field.set(&moments, &ground) < tolerance {
+            break;
+        }
+    }
+    field
+}
