@@ -19,6 +19,8 @@ struct Disc {
     step_rad: f32,
     samples: u32,
     map_width: u32,
+    // What stands in front: geometric direction, and the sine of its angular radius in w.
+    occluder: vec4f,
     // By apparent altitude across the disc: the luminance of a surface whose shape is one,
     // seen through the air, and the geometric altitude.
     luminance: array<vec4f, NODES>,
@@ -95,6 +97,10 @@ fn light_at(pixel: vec2f) -> LuminanceXyzv {
     let off_centre = (dir - disc.centre.xyz * dot(dir, disc.centre.xyz)) / disc.centre.w;
     let squared = dot(off_centre, off_centre);
     if squared >= 1.0 || dot(dir, disc.centre.xyz) < 0.0 {
+        return vec4f(0.0);
+    }
+    let beside = length(cross(dir, disc.occluder.xyz));
+    if beside < disc.occluder.w && dot(dir, disc.occluder.xyz) > 0.0 {
         return vec4f(0.0);
     }
     let cos_emission = sqrt(1.0 - squared);

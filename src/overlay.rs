@@ -2,27 +2,13 @@
 //!
 //! They are drawn on the finished picture, never into the frame: the frame holds light alone.
 
-use serde::{Deserialize, Serialize};
 use tiny_skia::{LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::camera::Camera;
 use crate::frame::{Apparent, Dir};
 use crate::image::Image;
+use crate::scene::Marks;
 use crate::units::Angle;
-
-/// Which marks are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Overlay {
-    pub horizon: bool,
-    pub cardinal_points: bool,
-}
-
-impl Default for Overlay {
-    fn default() -> Self {
-        Overlay { horizon: true, cardinal_points: true }
-    }
-}
 
 /// Names of the eight main winds, from north through east.
 pub const WINDS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
@@ -30,26 +16,23 @@ pub const WINDS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 /// Colour of the marks, sRGB: the dim red that eyes in the dark tolerate best.
 const COLOUR: [u8; 3] = [168, 72, 48];
 
-impl Overlay {
-    /// Draws the marks on a picture taken by `camera`.
-    pub fn draw(&self, picture: &mut Image<[u8; 3]>, camera: &Camera) {
-        let (width, height) = (picture.width_px(), picture.height_px());
-        let Some(mut marks) = Pixmap::new(width, height) else { return };
-        let size_px = f64::from(width.min(height)) / 45.0;
-        let size_px = size_px.clamp(7.0, 48.0);
-        if self.horizon {
-            draw_horizon(&mut marks, camera, (size_px / 14.0) as f32);
-        }
-        if self.cardinal_points {
-            draw_cardinal_points(&mut marks, camera, size_px);
-        }
-        for (pixel, mark) in picture.pixels_mut().iter_mut().zip(marks.pixels()) {
-            // The marks are premultiplied with their own coverage.
-            let under = 255 - u16::from(mark.alpha());
-            let over = [mark.red(), mark.green(), mark.blue()];
-            for (channel, over) in pixel.iter_mut().zip(over) {
-                *channel = (u16::from(over) + u16::from(*channel) * under / 255).min(255) as u8;
-            }
+/// Draws marks on a picture taken by `camera`.
+pub fn draw(wanted: Marks, picture: &mut Image<[u8; 3]>, camera: &Camera) {
+    let (width, height) = (picture.width_px(), picture.height_px());
+    let Some(mut marks) = Pixmap::new(width, height) else { return };
+    let size_px = (f64::from(width.min(height)) / 45.0).clamp(7.0, 48.0);
+    if wanted.horizon {
+        draw_horizon(&mut marks, camera, (size_px / 14.0) as f32);
+    }
+    if wanted.cardinal_points {
+        draw_cardinal_points(&mut marks, camera, size_px);
+    }
+    for (pixel, mark) in picture.pixels_mut().iter_mut().zip(marks.pixels()) {
+        // The marks are premultiplied with their own coverage.
+        let under = 255 - u16::from(mark.alpha());
+        let over = [mark.red(), mark.green(), mark.blue()];
+        for (channel, over) in pixel.iter_mut().zip(over) {
+            *channel = (u16::from(over) + u16::from(*channel) * under / 255).min(255) as u8;
         }
     }
 }
@@ -182,7 +165,7 @@ mod tests {
             height_px: 360,
         };
         let mut picture = Image::filled(720, 360, [0; 3]);
-        Overlay::default().draw(&mut picture, &camera);
+        draw(Marks::default(), &mut picture, &camera);
         for x in 1..719 {
             assert!(picture.at(x, 179)[0] > 0 || picture.at(x, 180)[0] > 0, "gap at {x}");
         }

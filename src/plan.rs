@@ -3,12 +3,30 @@
 //! The plan is made in f64 and holds only what the picture needs: a star that is out of view or
 //! below the horizon is not in it, and a table whose source does not shine is empty.
 
+pub mod body;
 pub mod disc;
+pub mod lay;
+pub mod ledger;
+pub mod skylight;
 
+use thiserror::Error;
+
+use crate::air::scattering::ScatteringError;
 use crate::camera::Camera;
+use crate::catalog::CatalogError;
+use crate::frame::{Apparent, Dir};
 use crate::units::{Angle, Xyzv};
 
 use disc::Disc;
+
+/// Why there is no plan.
+#[derive(Debug, Error)]
+pub enum PlanError {
+    #[error(transparent)]
+    Air(#[from] ScatteringError),
+    #[error(transparent)]
+    Catalog(#[from] CatalogError),
+}
 
 /// Everything that the GPU is asked to draw.
 #[derive(Debug, Clone)]
@@ -63,4 +81,28 @@ pub fn sky_table_altitude(row: usize) -> Angle {
 /// The azimuth from the source of column `column` of a sky table.
 pub fn sky_table_azimuth(column: usize) -> Angle {
     Angle::from_deg(180.0 * column as f64 / (SKY_AZIMUTHS - 1) as f64)
+}
+
+impl SkyPlan {
+    /// The light of the sky in an apparent direction at or above the horizon, cd/m2: the twin of
+    /// `skylight` in `shaders/sky.wgsl`.
+    pub fn luminance(&self, dir: Dir<Apparent>) -> Xyzv {
+        let last_row = (SKY_ALTITUDES - 1) as f64;
+        let row = (dir.altitude().max(Angle::ZERO).deg() / 90.0).sqrt() * last_row;
+        let r0 = (row as usize).min(SKY_ALTITUDES - 2);
+        let up = row - r0 as f64;
+        let mix = |a: Xyzv, b: Xyzv, t: f64| a * (1.0 - t) + b * t;
+        let mut light = mix(self.dark[r0], self.dark[r0 + 1], up);
+        for source in [&self.sun, &self.moon].into_iter().flatten() {
+            let from_source = (dir.azimuth() - source.azimuth).signed().abs();
+            let column = from_source.deg() / 180.0 * (SKY_AZIMUTHS - 1) as f64;
+            let c0 = (column as usize).min(SKY_AZIMUTHS - 2);
+            let along = column - c0 as f64;
+            let texel = |row: usize, column: usize| source.luminance[row * SKY_AZIMUTHS + column];
+            let lower = mix(texel(r0, c0), texel(r0, c0 + 1), along);
+            let upper = mix(texel(r0 + 1, c0), texel(r0 + 1, c0 + 1), along);
+            light += mix(lower, upper, up);
+        }
+        light
+    }
 }

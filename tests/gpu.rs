@@ -240,6 +240,7 @@ fn disc_plan(camera: Camera, law: SurfaceLaw, radius: Angle, phase_deg: f64) -> 
         step,
         nodes: std::array::from_fn(node),
         samples: ((48.0 / across_px).ceil() as u32).clamp(1, 8),
+        occluder: None,
     };
     FramePlan { discs: vec![disc], ..dark_plan(camera) }
 }

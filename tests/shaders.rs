@@ -72,6 +72,7 @@ fn uniforms_have_one_layout_on_both_sides() {
             step_rad,
             samples,
             map_width,
+            occluder,
             luminance,
             geometric_altitude
         ]

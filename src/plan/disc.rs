@@ -81,6 +81,8 @@ pub struct Disc {
     pub nodes: [DiscNode; NODES],
     /// Samples per pixel, along each axis.
     pub samples: u32,
+    /// What stands in front of it: geometric direction and angular radius.
+    pub occluder: Option<(Dir<Horizon>, Angle)>,
 }
 
 /// A point of a disc and its share of the disc's light outside the air; the shares sum to one.

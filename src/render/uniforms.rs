@@ -46,6 +46,7 @@ pub struct DiscUniform {
     pub step_rad: f32,
     pub samples: u32,
     pub map_width: u32,
+    pub occluder: [f32; 4],
     pub luminance: [[f32; 4]; NODES],
     pub geometric_altitude: [[f32; 4]; NODES],
 }
@@ -112,6 +113,10 @@ impl DiscUniform {
             step_rad: disc.step.rad() as f32,
             samples: disc.samples,
             map_width: map_width as u32,
+            // A radius of zero hides nothing.
+            occluder: disc
+                .occluder
+                .map_or([0.0; 4], |(dir, radius)| with(dir.vector(), radius.sin())),
             luminance: disc.nodes.map(|node| node.luminance.to_f32()),
             geometric_altitude: disc
                 .nodes

@@ -1,0 +1,40 @@
+# `make sky` draws tonight's sky, `make test` runs every test. Both install what they need.
+
+PLACE ?= Flagstaff
+NOCTURNE = target/release/nocturne
+
+# Keeps a layer of the Mesa drivers from looking for a window system that a picture does not need.
+export NODEVICE_SELECT ?= 1
+
+.PHONY: sky test lint goldens pack clean
+
+sky: driver
+	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 32 --fov 100 \
+		--size 1920x1080 -o tonight.png
+
+# The core alone first: it must build and pass without a GPU, a window or a picture format.
+test: driver
+	cargo test --release --no-default-features
+	cargo test --release
+
+# Builds the program and, if it finds no graphics adapter, installs the software one.
+.PHONY: driver
+driver:
+	@scripts/prepare.sh linker
+	cargo build --release
+	@$(NOCTURNE) adapter >/dev/null 2>&1 || scripts/prepare.sh adapter
+
+lint:
+	cargo fmt --check
+	cargo clippy --release --all-targets -- -D warnings
+
+# Draws the golden pictures again; look at them before they are committed.
+goldens: driver
+	NOCTURNE_GOLDENS=write cargo test --release --test golden
+
+# Packs the catalogues again from the raw tables.
+pack:
+	cargo run --release --bin pack
+
+clean:
+	cargo clean

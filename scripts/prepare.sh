@@ -1,0 +1,45 @@
+#!/bin/sh
+# Sees to it that the machine can link a Rust program (`linker`) or draw with Vulkan (`adapter`):
+# installs the Debian packages if this user may, and names them otherwise.
+set -u
+
+case "${1:-}" in
+linker)
+    command -v cc >/dev/null 2>&1 && exit 0
+    packages="gcc libc6-dev"
+    purpose="a C linker, which Rust needs"
+    needed=1
+    ;;
+adapter)
+    packages="mesa-vulkan-drivers libvulkan1"
+    purpose="a Vulkan driver that draws in software, since no graphics adapter was found"
+    needed=0
+    ;;
+*)
+    echo "usage: $0 linker|adapter" >&2
+    exit 2
+    ;;
+esac
+
+if [ "$(id -u)" = 0 ]; then
+    as_root=""
+elif sudo -n true 2>/dev/null; then
+    as_root="sudo"
+else
+    as_root="none"
+fi
+
+if command -v apt-get >/dev/null 2>&1 && [ "$as_root" != none ]; then
+    echo "Installing $packages: $purpose." >&2
+    # shellcheck disable=SC2086  # the packages are words
+    if $as_root apt-get update -qq >&2 &&
+        $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >&2; then
+        exit 0
+    fi
+    echo "The installation failed. Install $packages by hand: $purpose." >&2
+else
+    echo "Please install $packages (on Debian: apt-get install $packages): $purpose." >&2
+fi
+# Without a linker nothing can be built. Without an adapter the program says so itself, and the
+# tests that need one are reported as ignored.
+exit "$needed"

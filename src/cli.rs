@@ -1,0 +1,127 @@
+//! The command line: words become a checked scene, and a scene becomes files and a report.
+//!
+//! Exit codes: 0 when everything asked for was done, 2 when what was asked for makes no sense,
+//! 1 when it does but could not be done. Every error is one sentence on standard error. Results
+//! go to standard output, progress to standard error.
+
+mod draw;
+mod error;
+mod look;
+mod objects;
+mod outputs;
+mod place;
+mod progress;
+mod render;
+mod stage;
+mod stats;
+mod summary;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::catalog::Catalogs;
+use crate::place::Place;
+use crate::place::gazetteer::Gazetteer;
+
+use error::CliError;
+
+/// The night sky as it would really look: where everything is, and how bright.
+#[derive(Debug, Parser)]
+#[command(name = "nocturne", version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Folder of the catalogues, if it is not where the program looks by itself
+    #[arg(long, global = true, value_name = "DIR")]
+    catalogs: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw the sky of an instant and a place
+    Render(render::RenderArgs),
+    /// List places that are known, with coordinates and time zone
+    Place(place::PlaceArgs),
+    /// List the Sun, the Moon, planets and stars: where they stand and how bright they are
+    Objects(objects::ObjectsArgs),
+    /// Say which graphics adapter draws the pictures
+    #[cfg(feature = "gpu")]
+    Adapter,
+}
+
+/// Where the observer stands.
+#[derive(Debug, Clone, Args)]
+struct WhereArgs {
+    /// A city, such as Flagstaff or "Paris, France"
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["lat", "lon"])]
+    place: Option<String>,
+    /// Latitude in degrees, north positive
+    #[arg(long, value_name = "DEG", requires = "lon", allow_hyphen_values = true)]
+    lat: Option<f64>,
+    /// Longitude in degrees, east positive
+    #[arg(long, value_name = "DEG", requires = "lat", allow_hyphen_values = true)]
+    lon: Option<f64>,
+    /// Height above sea level in metres
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    height: Option<f64>,
+}
+
+impl WhereArgs {
+    /// The place asked for, if any was.
+    fn find(&self, catalogs: &Catalogs) -> Result<Option<Place>, CliError> {
+        let mut place = match (&self.place, self.lat, self.lon) {
+            (Some(name), _, _) => Gazetteer::parse(&catalogs.places_text()?)?.find(name)?,
+            (None, Some(lat), Some(lon)) => Place::new(lat, lon, 0.0)?,
+            _ => return Ok(None),
+        };
+        if let Some(height_m) = self.height {
+            // Checked by making the place anew; its name and clocks stay.
+            let Place { latitude, longitude, .. } = place;
+            place.height_m = Place::new(latitude.deg(), longitude.deg(), height_m)?.height_m;
+        }
+        Ok(Some(place))
+    }
+}
+
+/// Runs the program: the arguments of the process in, its exit code out.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version go to standard output and are no errors.
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let mut out = io::stdout().lock();
+    let result = dispatch(&cli, &mut out).and_then(|()| out.flush().map_err(CliError::from));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            if let Some(message) = error.message() {
+                eprintln!("nocturne: {message}");
+            }
+            error.exit_code()
+        }
+    }
+}
+
+fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
+    #[cfg(feature = "gpu")]
+    if let Command::Adapter = cli.command {
+        writeln!(out, "{}", crate::render::Renderer::new()?.adapter())?;
+        return Ok(());
+    }
+    let catalogs = Catalogs::locate(cli.catalogs.as_deref())?;
+    match &cli.command {
+        Command::Render(args) => render::run(args, &catalogs, out),
+        Command::Place(args) => place::run(args, &catalogs, out),
+        Command::Objects(args) => objects::run(args, &catalogs, out),
+        #[cfg(feature = "gpu")]
+        Command::Adapter => Ok(()),
+    }
+}

@@ -1,0 +1,68 @@
+//! Draws the picture of a night.
+
+use crate::catalog::Catalogs;
+use crate::light::night::Night;
+use crate::plan::ledger::Ledger;
+use crate::scene::{Scene, Setting};
+
+use super::error::CliError;
+use super::outputs::Picture;
+use super::progress::Progress;
+
+/// A picture, and what it cost.
+pub struct Drawn {
+    pub picture: Picture,
+    pub ledger: Ledger,
+    /// The graphics adapter.
+    pub adapter: String,
+    /// Milliseconds of the GPU, by pass.
+    pub passes: Vec<(String, f64)>,
+    /// What the eye was adapted to, cd/m2.
+    pub adaptation_cd_m2: f64,
+}
+
+/// Draws it.
+#[cfg(feature = "gpu")]
+pub fn draw(
+    scene: &Scene,
+    setting: &Setting,
+    night: &Night,
+    catalogs: &Catalogs,
+    progress: &mut Progress,
+) -> Result<Drawn, CliError> {
+    use crate::overlay;
+    use crate::plan::lay::lay;
+    use crate::render::Renderer;
+
+    // Whether anything can be drawn is known soon, so ask before the long work.
+    let renderer = progress.step("graphics adapter", Renderer::new)?;
+    let (plan, ledger) = progress.step("light and air", || {
+        lay(setting, &scene.layers, night, || catalogs.moon_map())
+    })?;
+    let rendered = progress.step("drawing", || renderer.frame(&plan))?;
+    let frame = rendered.frame;
+    let (seen, adaptation_cd_m2) = progress.step("seeing", || {
+        let mut seen = scene.eye.see(&frame);
+        overlay::draw(scene.marks, &mut seen, &setting.camera);
+        (seen, scene.eye.adaptation_cd_m2(&frame))
+    });
+    Ok(Drawn {
+        picture: Picture { frame, seen },
+        ledger,
+        adapter: renderer.adapter(),
+        passes: rendered.times.into_iter().map(|time| (time.pass, time.milliseconds)).collect(),
+        adaptation_cd_m2,
+    })
+}
+
+#[cfg(not(feature = "gpu"))]
+pub fn draw(
+    _scene: &Scene,
+    _setting: &Setting,
+    _night: &Night,
+    _catalogs: &Catalogs,
+    _progress: &mut Progress,
+) -> Result<Drawn, CliError> {
+    let message = "this program was built without its renderer; build it with the feature gpu";
+    Err(CliError::Failure(message.to_owned()))
+}

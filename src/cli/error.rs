@@ -1,0 +1,70 @@
+//! What goes wrong at the command line: one sentence and an exit code.
+
+use std::io;
+use std::process::ExitCode;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub enum CliError {
+    /// What was asked for makes no sense: exit code 2.
+    Usage(String),
+    /// It makes sense but could not be done: exit code 1.
+    Failure(String),
+    /// Whoever read our output has stopped reading: no error of ours.
+    NobodyReads,
+}
+
+impl CliError {
+    /// The sentence, on one line.
+    pub fn message(&self) -> Option<String> {
+        match self {
+            CliError::Usage(message) | CliError::Failure(message) => {
+                Some(message.split_whitespace().collect::<Vec<_>>().join(" "))
+            }
+            CliError::NobodyReads => None,
+        }
+    }
+
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            CliError::Usage(_) => ExitCode::from(2),
+            CliError::Failure(_) => ExitCode::FAILURE,
+            CliError::NobodyReads => ExitCode::SUCCESS,
+        }
+    }
+}
+
+impl From<io::Error> for CliError {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => CliError::NobodyReads,
+            _ => CliError::Failure(format!("standard output: {error}")),
+        }
+    }
+}
+
+macro_rules! from_error {
+    ($kind:ident: $($error:ty),* $(,)?) => {
+        $(impl From<$error> for CliError {
+            fn from(error: $error) -> Self {
+                CliError::$kind(error.to_string())
+            }
+        })*
+    };
+}
+
+from_error!(Usage:
+    crate::time::TimeError,
+    crate::place::PlaceError,
+    crate::place::gazetteer::GazetteerError,
+    crate::scene::SceneError,
+    crate::ephemeris::EphemerisError,
+    crate::air::AirError,
+);
+from_error!(Failure:
+    crate::catalog::CatalogError,
+    crate::export::ExportError,
+    crate::plan::PlanError,
+);
+#[cfg(feature = "gpu")]
+from_error!(Failure: crate::render::gpu::GpuError);

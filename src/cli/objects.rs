@@ -1,0 +1,116 @@
+//! `nocturne objects`: what stands in the sky, where, and how bright.
+
+use std::io::Write;
+
+use clap::{Args, ValueEnum};
+
+use crate::air::Atmosphere;
+use crate::catalog::Catalogs;
+use crate::ephemeris::Body;
+use crate::light::night::{Kind, LitObject, Night};
+use crate::units::Angle;
+
+use super::WhereArgs;
+use super::error::CliError;
+use super::look::wind;
+use super::stage;
+
+/// The best that the present theories give.
+const TOLERANCE: Angle = Angle::from_arcsec(1.0);
+
+#[derive(Debug, Args)]
+pub struct ObjectsArgs {
+    /// Part of a name, a designation or a catalogue number
+    #[arg(default_value = "")]
+    query: String,
+    /// Only objects of this kind
+    #[arg(long, value_enum)]
+    kind: Option<KindArg>,
+    /// Only objects above the horizon
+    #[arg(long)]
+    up: bool,
+    /// Only objects at least this bright
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    magnitude_limit: Option<f64>,
+    /// Instant: a date and time, `now` or `tonight`
+    #[arg(long, default_value = "now", value_name = "TIME", allow_hyphen_values = true)]
+    at: String,
+    #[command(flatten)]
+    location: WhereArgs,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum KindArg {
+    Sun,
+    Moon,
+    Planet,
+    Star,
+}
+
+impl KindArg {
+    fn is(self, object: &LitObject) -> bool {
+        let kind = match object.kind {
+            Kind::Body(Body::Sun) => KindArg::Sun,
+            Kind::Body(Body::Moon) => KindArg::Moon,
+            Kind::Body(_) => KindArg::Planet,
+            Kind::Star(_) => KindArg::Star,
+        };
+        self == kind
+    }
+}
+
+pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
+    let place = args.location.find(catalogs)?.ok_or_else(|| {
+        CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned())
+    })?;
+    let instant = stage::instant(&args.at, &place)?;
+    let night = stage::night(&instant, &place, TOLERANCE, &Atmosphere::default(), catalogs)?;
+    let query = args.query.to_lowercase();
+    writeln!(
+        out,
+        "{:<26} {:<8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>4}",
+        "name", "number", "V", "B-V", "azimuth", "altitude", "seen at", "wind"
+    )?;
+    for object in &night.objects {
+        let number = number(object, &night);
+        let names = [night.label(object), number.clone(), designation(object, &night)];
+        let wanted = names.iter().any(|name| name.to_lowercase().contains(&query))
+            && args.kind.is_none_or(|kind| kind.is(object))
+            && args.magnitude_limit.is_none_or(|limit| object.magnitude.0 <= limit)
+            && (!args.up || object.apparent.altitude() >= Angle::ZERO);
+        if !wanted {
+            continue;
+        }
+        let b_v = match object.kind {
+            Kind::Star(index) => format!("{:.2}", night.stars[index].b_v),
+            Kind::Body(_) => String::new(),
+        };
+        writeln!(
+            out,
+            "{:<26} {:<8} {:>6.2} {:>6} {:>9.4} {:>+9.4} {:>+9.4} {:>4}",
+            names[0],
+            number,
+            object.magnitude.0,
+            b_v,
+            object.dir.azimuth().deg(),
+            object.dir.altitude().deg(),
+            object.apparent.altitude().deg(),
+            wind(object.apparent.azimuth())
+        )?;
+    }
+    Ok(())
+}
+
+fn number(object: &LitObject, night: &Night) -> String {
+    match object.kind {
+        Kind::Star(index) => format!("HR {}", night.stars[index].hr),
+        Kind::Body(_) => String::new(),
+    }
+}
+
+fn designation(object: &LitObject, night: &Night) -> String {
+    match object.kind {
+        Kind::Star(index) => night.stars[index].designation.clone().unwrap_or_default(),
+        Kind::Body(_) => String::new(),
+    }
+}

@@ -1,0 +1,140 @@
+//! The files that a render was asked for.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::export::describe::Description;
+use crate::export::exr::{self, Attribute};
+use crate::export::{OutputFile, png};
+use crate::image::{HdrFrame, Image};
+use crate::light::night::Night;
+use crate::scene::{Scene, Setting};
+
+use super::error::CliError;
+
+/// The files, opened before the work begins, so that none of it is done for nothing.
+pub struct Outputs {
+    png: Vec<OutputFile>,
+    exr: Vec<OutputFile>,
+    scene: Option<OutputFile>,
+    description: Option<OutputFile>,
+    describe_to_stdout: bool,
+}
+
+/// A finished picture.
+pub struct Picture {
+    pub frame: HdrFrame,
+    pub seen: Image<[u8; 3]>,
+}
+
+/// What was written.
+pub struct Written {
+    pub paths: Vec<PathBuf>,
+    pub used_stdout: bool,
+}
+
+impl Outputs {
+    pub fn open(
+        pictures: &[PathBuf],
+        description: &Option<PathBuf>,
+        scene: &Option<PathBuf>,
+    ) -> Result<Outputs, CliError> {
+        let (mut png, mut exr) = (Vec::new(), Vec::new());
+        for path in pictures {
+            let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+            let kind = match extension.to_ascii_lowercase().as_str() {
+                "png" => &mut png,
+                "exr" => &mut exr,
+                _ => {
+                    return Err(CliError::Usage(format!(
+                        "--output {}: the name must end in .png or .exr",
+                        path.display()
+                    )));
+                }
+            };
+            kind.push(OutputFile::create(path)?);
+        }
+        let describe_to_stdout = description.as_deref() == Some(Path::new("-"));
+        let open = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
+        let outputs = Outputs {
+            png,
+            exr,
+            scene: open(scene)?,
+            description: if describe_to_stdout { None } else { open(description)? },
+            describe_to_stdout,
+        };
+        if !outputs.draws() && scene.is_none() && description.is_none() {
+            return Err(CliError::Usage(
+                "nothing to write: give --output FILE, --describe FILE or --save-scene FILE"
+                    .to_owned(),
+            ));
+        }
+        Ok(outputs)
+    }
+
+    /// Whether a picture has to be drawn at all.
+    pub fn draws(&self) -> bool {
+        !self.png.is_empty() || !self.exr.is_empty()
+    }
+
+    /// Steps of the work: positions and writing, and four of drawing.
+    pub fn steps(&self) -> u64 {
+        if self.draws() { 6 } else { 2 }
+    }
+
+    /// Writes everything.
+    pub fn write(
+        self,
+        scene: &Scene,
+        setting: &Setting,
+        night: &Night,
+        picture: Option<&Picture>,
+        stdout: &mut impl Write,
+    ) -> Result<Written, CliError> {
+        let mut paths = Vec::new();
+        let mut note = |file: &OutputFile| paths.push(file.path().to_owned());
+        if let Some(picture) = picture {
+            for file in self.png {
+                note(&file);
+                png::write(file, &picture.seen)?;
+            }
+            for file in self.exr {
+                note(&file);
+                exr::write(file, &picture.frame, &attributes(setting))?;
+            }
+        }
+        if let Some(file) = self.scene {
+            note(&file);
+            file.write(|writer| writer.write_all(scene.to_toml().as_bytes()))?;
+        }
+        if let Some(file) = self.description {
+            note(&file);
+            Description::of(setting, night).write(file)?;
+        }
+        if self.describe_to_stdout {
+            Description::of(setting, night).write_to(stdout)?;
+        }
+        Ok(Written { paths, used_stdout: self.describe_to_stdout })
+    }
+}
+
+/// What an EXR says about its frame.
+fn attributes(setting: &Setting) -> Vec<(&'static str, Attribute)> {
+    let text = |text: &str| Attribute::Text(text.to_owned());
+    let Setting { instant, place, camera, .. } = setting;
+    vec![
+        ("units", text("cd/m2; X, Y, Z: CIE 1931 with 683 lm/W; V: CIE 1951 scotopic with 1700 lm/W")),
+        ("instant_utc", text(&instant.to_string())),
+        ("jd_tt", Attribute::Number(instant.tt.jd())),
+        ("jd_ut1", Attribute::Number(instant.ut1.jd())),
+        ("place", text(place.name.as_deref().unwrap_or(""))),
+        ("latitude_deg", Attribute::Number(place.latitude.deg())),
+        ("longitude_deg", Attribute::Number(place.longitude.deg())),
+        ("height_m", Attribute::Number(place.height_m)),
+        ("projection", text(camera.projection.name())),
+        ("field_of_view_deg", Attribute::Number(camera.field_of_view.deg())),
+        ("azimuth_deg", Attribute::Number(camera.azimuth.deg())),
+        ("altitude_deg", Attribute::Number(camera.altitude.deg())),
+        ("roll_deg", Attribute::Number(camera.roll.deg())),
+    ]
+}

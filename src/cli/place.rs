@@ -1,0 +1,38 @@
+//! `nocturne place`: places that are known.
+
+use std::io::Write;
+
+use clap::Args;
+
+use crate::catalog::Catalogs;
+use crate::place::gazetteer::Gazetteer;
+
+use super::error::CliError;
+
+#[derive(Debug, Args)]
+pub struct PlaceArgs {
+    /// Part of a name; the largest places first
+    #[arg(default_value = "")]
+    query: String,
+    /// How many to list
+    #[arg(long, default_value_t = 20, value_name = "N")]
+    limit: usize,
+}
+
+pub fn run(args: &PlaceArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
+    let text = catalogs.places_text()?;
+    let gazetteer = Gazetteer::parse(&text)?;
+    let found = gazetteer.search(&args.query, args.limit);
+    if found.is_empty() {
+        // The look-up by name knows what is near it.
+        gazetteer.find(&args.query)?;
+    }
+    for city in found {
+        writeln!(
+            out,
+            "{:<28} {:<28} {:>9.4} {:>10.4} {:>6.0} m  {}",
+            city.name, city.admin1, city.latitude_deg, city.longitude_deg, city.elevation_m, city.time_zone
+        )?;
+    }
+    Ok(())
+}

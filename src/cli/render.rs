@@ -1,0 +1,225 @@
+//! `nocturne render`: a picture of the sky, and what is in it.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::air::Atmosphere;
+use crate::camera::Projection;
+use crate::catalog::Catalogs;
+use crate::eye::Eye;
+use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, ScenePlace};
+
+use super::WhereArgs;
+use super::error::CliError;
+use super::look::{self, Look};
+use super::outputs::Outputs;
+use super::progress::Progress;
+use super::{draw, stage, stats, summary};
+
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// Instant: 2026-08-12T21:30-07:00, 2026-08-12 21:30 (local time there), now, or tonight
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    at: Option<String>,
+    #[command(flatten)]
+    location: WhereArgs,
+    /// Direction of view: N, SSW, an azimuth in degrees, zenith, or an object such as Moon or Sirius
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
+    look: Option<Look>,
+    /// Altitude of the middle of the picture, degrees [default: 30]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    altitude: Option<f64>,
+    /// Turn of the camera about the line of sight, degrees, clockwise [default: 0]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    roll: Option<f64>,
+    /// Field of view across the width of the picture, degrees [default: 90]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    fov: Option<f64>,
+    /// How the sky is laid on the picture [default: stereographic]
+    #[arg(long, value_enum)]
+    projection: Option<ProjectionArg>,
+    /// Width and height in pixels [default: 1280x720]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<(u32, u32)>,
+    /// Leave out stars and planets fainter than this
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    magnitude_limit: Option<f64>,
+    /// How far off positions may be, arcseconds [default: a tenth of a pixel]
+    #[arg(long, value_name = "ARCSEC")]
+    tolerance: Option<f64>,
+    /// Brighter (positive) or darker PNG, in factors of two [default: 0]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    exposure: Option<f64>,
+    /// No horizon line and cardinal points on the PNG
+    #[arg(long)]
+    no_marks: bool,
+    /// Start from a scene file; other options change what it says
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
+    /// Write the scene, from which the same picture can be drawn again
+    #[arg(long, value_name = "FILE")]
+    save_scene: Option<PathBuf>,
+    /// Picture to write: .png (as an eye sees it) or .exr (cd/m2, channels X, Y, Z, V); may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    /// Write where every object is and how bright, as JSON; - for standard output
+    #[arg(long, value_name = "FILE")]
+    describe: Option<PathBuf>,
+    /// Say what was drawn, what was not and why, and what it cost
+    #[arg(long)]
+    stats: bool,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ProjectionArg {
+    Perspective,
+    Stereographic,
+    /// Fisheye, equal angles
+    #[value(alias = "fisheye")]
+    Equidistant,
+    /// Fisheye, equal areas
+    EqualArea,
+    /// Azimuth and altitude as x and y
+    Equirectangular,
+}
+
+impl From<ProjectionArg> for Projection {
+    fn from(arg: ProjectionArg) -> Projection {
+        match arg {
+            ProjectionArg::Perspective => Projection::Perspective,
+            ProjectionArg::Stereographic => Projection::Stereographic,
+            ProjectionArg::Equidistant => Projection::Equidistant,
+            ProjectionArg::EqualArea => Projection::EqualArea,
+            ProjectionArg::Equirectangular => Projection::Equirectangular,
+        }
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let wrong = || "give width and height in pixels, such as 1920x1080".to_owned();
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| wrong());
+    Ok((number(width)?, number(height)?))
+}
+
+pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
+    let mut scene = scene(args, catalogs)?;
+    let mut setting = scene.setting()?;
+    let outputs = Outputs::open(&args.output, &args.describe, &args.save_scene)?;
+    let mut progress = Progress::new(args.quiet, outputs.steps());
+
+    let night = progress.step("positions", || {
+        stage::night(&setting.instant, &setting.place, setting.tolerance, &scene.air, catalogs)
+    })?;
+    if let Some(Look::Object(name)) = &args.look {
+        let towards = look::towards(name, &night)?;
+        scene.camera.azimuth_deg = towards.azimuth().deg();
+        scene.camera.altitude_deg = towards.altitude().deg();
+        setting = scene.setting()?;
+    }
+    let drawn = match outputs.draws() {
+        true => Some(draw::draw(&scene, &setting, &night, catalogs, &mut progress)?),
+        false => None,
+    };
+    let written = progress.step("writing", || {
+        let picture = drawn.as_ref().map(|drawn| &drawn.picture);
+        outputs.write(&scene, &setting, &night, picture, out)
+    })?;
+    progress.finish();
+
+    // What describes the picture on standard output is not mixed with words.
+    let mut standard_error = std::io::stderr();
+    let report: &mut dyn Write =
+        if written.used_stdout { &mut standard_error } else { &mut *out };
+    if !args.quiet {
+        let ledger = drawn.as_ref().map(|drawn| &drawn.ledger);
+        summary::write(report, &setting, &night, ledger)?;
+        for path in &written.paths {
+            writeln!(report, "Wrote {}", path.display())?;
+        }
+    }
+    if args.stats {
+        stats::write(report, &night, drawn.as_ref(), progress.times())?;
+    }
+    Ok(())
+}
+
+/// The scene that the options describe, or the scene file with what the options change.
+fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
+    let base = args.scene.as_deref().map(read_scene).transpose()?;
+    let found = args.location.find(catalogs)?;
+    let place = match (&found, &base) {
+        (Some(place), _) => ScenePlace {
+            name: place.name.clone(),
+            latitude_deg: place.latitude.deg(),
+            longitude_deg: place.longitude.deg(),
+            height_m: place.height_m,
+            time_zone: place.time_zone.map(|zone| zone.name().to_owned()),
+        },
+        (None, Some(base)) => {
+            let height_m = args.location.height.unwrap_or(base.place.height_m);
+            ScenePlace { height_m, ..base.place.clone() }
+        }
+        (None, None) => {
+            return Err(CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned()));
+        }
+    };
+    let mut scene = base.unwrap_or_else(|| Scene {
+        nocturne_scene: FORMAT,
+        utc: String::new(),
+        tolerance_arcsec: None,
+        place: place.clone(),
+        camera: SceneCamera {
+            azimuth_deg: 180.0,
+            altitude_deg: 30.0,
+            roll_deg: 0.0,
+            field_of_view_deg: 90.0,
+            projection: Projection::Stereographic,
+            width_px: 1280,
+            height_px: 720,
+        },
+        layers: Layers::default(),
+        air: Atmosphere::default(),
+        eye: Eye::default(),
+        marks: Marks::default(),
+    });
+    scene.place = place;
+    let at = args.at.as_deref().or(scene.utc.is_empty().then_some("now"));
+    if let Some(at) = at {
+        // Checked by making the place, which the zone comes with.
+        let place = Scene { utc: "2000-01-01T00:00Z".to_owned(), ..scene.clone() }.setting()?.place;
+        scene.utc = stage::instant(at, &place)?.to_string();
+    }
+    change_camera(args, &mut scene.camera);
+    scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
+    scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
+    scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);
+    if args.no_marks {
+        scene.marks = Marks { horizon: false, cardinal_points: false };
+    }
+    Ok(scene)
+}
+
+fn read_scene(path: &Path) -> Result<Scene, CliError> {
+    let wrong = |message: String| CliError::Usage(format!("--scene {}: {message}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+    Scene::parse(&text).map_err(|error| wrong(error.to_string()))
+}
+
+fn change_camera(args: &RenderArgs, camera: &mut SceneCamera) {
+    match args.look {
+        Some(Look::Azimuth(azimuth)) => camera.azimuth_deg = azimuth.deg(),
+        Some(Look::Zenith) => (camera.azimuth_deg, camera.altitude_deg) = (0.0, 90.0),
+        Some(Look::Object(_)) | None => {}
+    }
+    camera.altitude_deg = args.altitude.unwrap_or(camera.altitude_deg);
+    camera.roll_deg = args.roll.unwrap_or(camera.roll_deg);
+    camera.field_of_view_deg = args.fov.unwrap_or(camera.field_of_view_deg);
+    camera.projection = args.projection.map_or(camera.projection, Projection::from);
+    (camera.width_px, camera.height_px) = args.size.unwrap_or((camera.width_px, camera.height_px));
+}

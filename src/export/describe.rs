@@ -1,0 +1,146 @@
+//! What is in a picture, as JSON: where every object is, in the sky and on the picture, and how
+//! bright. The keys are a public contract: they are added to, never renamed.
+
+use std::io;
+
+use serde::Serialize;
+
+use crate::ephemeris::Body;
+use crate::light::night::{Kind, LitObject, Night};
+use crate::plan::lay::pixel_from_apparent;
+use crate::scene::Setting;
+use crate::units::Angle;
+
+use super::{ExportError, OutputFile};
+
+/// A picture and what is in it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Description {
+    pub instant_utc: String,
+    /// Julian date on the clock TT.
+    pub jd_tt: f64,
+    /// Julian date on the clock UT1.
+    pub jd_ut1: f64,
+    /// TT - UT1, seconds.
+    pub delta_t_s: f64,
+    pub place: DescribedPlace,
+    pub camera: DescribedCamera,
+    pub objects: Vec<DescribedObject>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DescribedPlace {
+    pub name: Option<String>,
+    pub latitude_deg: f64,
+    pub longitude_deg: f64,
+    pub height_m: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DescribedCamera {
+    pub projection: &'static str,
+    /// Angle that the width of the picture spans, through its centre.
+    pub field_of_view_deg: f64,
+    pub azimuth_deg: f64,
+    pub altitude_deg: f64,
+    pub roll_deg: f64,
+    pub width_px: u32,
+    pub height_px: u32,
+    /// Pixels per radian at the centre of the picture.
+    pub focal_px: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DescribedObject {
+    pub name: String,
+    /// `sun`, `moon`, `planet` or `star`.
+    pub kind: &'static str,
+    /// Number in a catalogue, such as `HR 2491`.
+    pub catalogue: Option<String>,
+    /// Pixels from the top left corner, pixel centres at .5; none when out of view.
+    pub x_px: Option<f64>,
+    pub y_px: Option<f64>,
+    /// From north through east.
+    pub azimuth_deg: f64,
+    /// Without air.
+    pub altitude_deg: f64,
+    /// As refracted.
+    pub apparent_altitude_deg: f64,
+    /// Stated bound of the error of the direction.
+    pub error_bound_arcsec: f64,
+    /// Johnson V outside the air.
+    pub magnitude_v: f64,
+    /// Outside the air.
+    pub illuminance_lx: f64,
+    /// Through the air; zero below the horizon.
+    pub illuminance_ground_lx: f64,
+    /// Solid angle of the pixel that it falls on; none when out of view.
+    pub pixel_solid_angle_sr: Option<f64>,
+}
+
+impl Description {
+    /// Describes the picture that the camera of a setting takes of a night.
+    pub fn of(setting: &Setting, night: &Night) -> Description {
+        let (instant, place, camera) = (&setting.instant, &setting.place, &setting.camera);
+        let described = |object: &LitObject| {
+            let pixel = pixel_from_apparent(camera, object.apparent)
+                .filter(|_| object.apparent.altitude() >= Angle::ZERO)
+                .filter(|&pixel| camera.contains(pixel));
+            let (kind, catalogue) = match object.kind {
+                Kind::Body(Body::Sun) => ("sun", None),
+                Kind::Body(Body::Moon) => ("moon", None),
+                Kind::Body(_) => ("planet", None),
+                Kind::Star(index) => ("star", Some(format!("HR {}", night.stars[index].hr))),
+            };
+            DescribedObject {
+                name: night.label(object),
+                kind,
+                catalogue,
+                x_px: pixel.map(|[x, _]| x),
+                y_px: pixel.map(|[_, y]| y),
+                azimuth_deg: object.dir.azimuth().deg(),
+                altitude_deg: object.dir.altitude().deg(),
+                apparent_altitude_deg: object.apparent.altitude().deg(),
+                error_bound_arcsec: object.error_bound.arcsec(),
+                magnitude_v: object.magnitude.0,
+                illuminance_lx: object.outside.lx(),
+                illuminance_ground_lx: object.ground.y,
+                pixel_solid_angle_sr: pixel.map(|pixel| camera.pixel_solid_angle_sr(pixel)),
+            }
+        };
+        Description {
+            instant_utc: instant.to_string(),
+            jd_tt: instant.tt.jd(),
+            jd_ut1: instant.ut1.jd(),
+            delta_t_s: instant.delta_t_s(),
+            place: DescribedPlace {
+                name: place.name.clone(),
+                latitude_deg: place.latitude.deg(),
+                longitude_deg: place.longitude.deg(),
+                height_m: place.height_m,
+            },
+            camera: DescribedCamera {
+                projection: camera.projection.name(),
+                field_of_view_deg: camera.field_of_view.deg(),
+                azimuth_deg: camera.azimuth.deg(),
+                altitude_deg: camera.altitude.deg(),
+                roll_deg: camera.roll.deg(),
+                width_px: camera.width_px,
+                height_px: camera.height_px,
+                focal_px: camera.focal_px(),
+            },
+            objects: night.objects.iter().map(described).collect(),
+        }
+    }
+
+    /// Writes the description.
+    pub fn write(&self, file: OutputFile) -> Result<(), ExportError> {
+        file.write(|writer| self.write_to(writer))
+    }
+
+    /// Writes the description to anything that takes bytes.
+    pub fn write_to(&self, writer: &mut impl io::Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut *writer, self).map_err(io::Error::from)?;
+        writeln!(writer)
+    }
+}

@@ -1,0 +1,141 @@
+//! Everything in the sky that is drawn as itself: where it stands, where it is seen, how bright.
+
+use crate::air::Atmosphere;
+use crate::air::extinction::transmittance;
+use crate::catalog::Star;
+use crate::ephemeris::Body;
+use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::spectrum::Spectrum;
+use crate::light::star_light::StarLight;
+use crate::light::{moon, planets, sun};
+use crate::sky::{BodyState, SkyState};
+use crate::units::{Angle, Illuminance, Magnitude, Xyzv};
+
+/// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
+/// and declinations to 1 arcsecond, in the FK5.
+pub const STAR_ERROR_BOUND: Angle = Angle::from_arcsec(3.0);
+
+/// What an object is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    Body(Body),
+    /// A star, by its place in [`Night::stars`].
+    Star(usize),
+}
+
+/// An object and its light.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LitObject {
+    pub kind: Kind,
+    /// Geometric direction, without air.
+    pub dir: Dir<Horizon>,
+    /// Where it is seen.
+    pub apparent: Dir<Apparent>,
+    /// Stated bound of the error of its direction.
+    pub error_bound: Angle,
+    /// Johnson V, outside the air.
+    pub magnitude: Magnitude,
+    /// Photopic illuminance outside the air, on a plane that faces it.
+    pub outside: Illuminance,
+    /// Illuminance through the air, lux; black below the horizon.
+    pub ground: Xyzv,
+}
+
+/// The sky of an instant and a place with everything that shines in it.
+#[derive(Debug, Clone)]
+pub struct Night {
+    pub sky: SkyState,
+    pub air: Atmosphere,
+    /// Sun, Moon, planets, then the stars in the order of the catalogue.
+    pub objects: Vec<LitObject>,
+    pub stars: Vec<Star>,
+}
+
+impl Night {
+    /// Lights the sky. The stars are those of the catalogue.
+    pub fn of(sky: SkyState, stars: Vec<Star>, air: &Atmosphere) -> Night {
+        let height_m = sky.place.height_m;
+        let refraction = air.refraction_at(height_m);
+        let body = |state: &BodyState, spectrum: Spectrum| {
+            let apparent = refraction.apparent_from_horizon(state.dir);
+            let outside = spectrum.xyzv();
+            let ground = if apparent.altitude() < Angle::ZERO {
+                Xyzv::BLACK
+            } else {
+                (spectrum * transmittance(air, height_m, apparent.altitude())).xyzv()
+            };
+            LitObject {
+                kind: Kind::Body(state.body),
+                dir: state.dir,
+                apparent,
+                error_bound: state.error_bound,
+                magnitude: Illuminance::from_lx(outside.y).magnitude(),
+                outside: Illuminance::from_lx(outside.y),
+                ground,
+            }
+        };
+        let mut objects = vec![
+            body(&sky.sun, sun::irradiance(sky.sun.distance_km)),
+            body(&sky.moon.state, moon_irradiance(&sky)),
+        ];
+        objects.extend(sky.planets.iter().map(|state| body(state, planet_irradiance(state, &sky))));
+
+        let starlight = StarLight::new(air, height_m);
+        let directions = sky.stars(&stars);
+        objects.extend(stars.iter().zip(directions).enumerate().map(|(index, (star, dir))| {
+            let apparent = refraction.apparent_from_horizon(dir);
+            let outside = star.magnitude.illuminance();
+            let ground = if apparent.altitude() < Angle::ZERO {
+                Xyzv::BLACK
+            } else {
+                starlight.at_eye(star.b_v, apparent.altitude(), outside)
+            };
+            LitObject {
+                kind: Kind::Star(index),
+                dir,
+                apparent,
+                error_bound: STAR_ERROR_BOUND,
+                magnitude: star.magnitude,
+                outside,
+                ground,
+            }
+        }));
+        Night { sky, air: air.clone(), objects, stars }
+    }
+
+    /// The Sun, the Moon or a planet.
+    pub fn body(&self, body: Body) -> Option<&LitObject> {
+        self.objects.iter().find(|object| object.kind == Kind::Body(body))
+    }
+
+    /// What people call an object: a proper name, a designation, or a catalogue number.
+    pub fn label(&self, object: &LitObject) -> String {
+        match object.kind {
+            Kind::Body(body) => body.name().to_owned(),
+            Kind::Star(index) => {
+                let star = &self.stars[index];
+                let name = star.name.as_ref().or(star.designation.as_ref());
+                name.cloned().unwrap_or_else(|| format!("HR {}", star.hr))
+            }
+        }
+    }
+
+    /// An object by name: `Moon`, `Sirius`, `α CMa`, `61 Cyg`, `HR 2491`, `HIP 32349`.
+    pub fn find(&self, name: &str) -> Option<&LitObject> {
+        let wanted = folded(name);
+        self.objects.iter().find(|object| match object.kind {
+            Kind::Body(body) => folded(body.name()) == wanted,
+            Kind::Star(index) => {
+                let star = &self.stars[index];
+                let names = star.name.iter().chain(&star.designation).map(|name| folded(name));
+                let hip = star.hip.map(|hip| format!("hip{hip}"));
+                names.chain([format!("hr{}", star.hr)]).chain(hip).any(|known| known == wanted)
+            }
+        })
+    }
+}
+
+/// A name without the differences that people do not mean.
+fn folded(name: &str) -> String {
+    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+}

@@ -1,0 +1,205 @@
+//! Lays a night on the plane of the picture.
+
+use crate::camera::Camera;
+use crate::catalog::{CatalogError, MoonMap};
+use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::night::{Kind, LitObject, Night};
+use crate::scene::{Layers, Setting};
+use crate::sky::BodyState;
+use crate::units::{Angle, Xyzv};
+
+use super::body::{self, SeenBody};
+use super::ledger::Ledger;
+use super::skylight::{self, Shines};
+use super::{FramePlan, PlanError, SkyPlan, Splat};
+
+/// Reach of a splat from its centre, pixels.
+const SPLAT_REACH_PX: f64 = 2.0;
+/// Share of a splat's light in its brightest pixel, at most: the square of the B-spline's 2/3.
+const SPLAT_PEAK: f64 = 4.0 / 9.0;
+/// A point whose brightest pixel is fainter than this share of the sky behind it is not drawn.
+const DROWNED: f64 = 1e-4;
+
+const OUT_OF_VIEW: &str = "out of view";
+const BELOW_HORIZON: &str = "below the horizon";
+const SWITCHED_OFF: &str = "switched off";
+const TOO_FAINT: &str = "fainter than the magnitude limit";
+const OUTSHONE: &str = "under 1/10 000 of the sky behind it";
+const HIDDEN: &str = "behind the Moon or the Sun";
+
+/// Makes the plan of a frame and the ledger of what is in it. The Moon's map is asked for only if
+/// the Moon shows a disc.
+pub fn lay(
+    setting: &Setting,
+    layers: &Layers,
+    night: &Night,
+    moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
+) -> Result<(FramePlan, Ledger), PlanError> {
+    let camera = setting.camera;
+    let mut ledger = Ledger::default();
+    let sky = lay_sky(layers, night, &mut ledger)?;
+    let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
+    let mut moon_map = Some(moon_map);
+
+    for object in &night.objects {
+        let (layer, wanted) = layer_of(object, layers);
+        let visible = visible(object, layers, wanted, night, &plan);
+        if let Err(reason) = visible {
+            ledger.skip(layer, reason);
+            continue;
+        }
+        let drawn = match state_of(object, night) {
+            Some(state) => {
+                let seen = SeenBody::of(state, object, night, &camera);
+                let map = || match moon_map.take() {
+                    Some(read) => read().map(Some),
+                    None => Ok(None),
+                };
+                lay_body(&seen, map, &mut plan)?
+            }
+            None => lay_point(&camera, object.apparent, object.ground, &mut plan.splats),
+        };
+        match drawn {
+            true => ledger.draw(layer),
+            false => ledger.skip(layer, OUT_OF_VIEW),
+        }
+    }
+    Ok((plan, ledger))
+}
+
+fn lay_sky(layers: &Layers, night: &Night, ledger: &mut Ledger) -> Result<SkyPlan, PlanError> {
+    let switched = |on: bool, shines: Shines| if on { shines } else { Shines::No(SWITCHED_OFF) };
+    let sun = switched(layers.skylight, skylight::sun_shines(night));
+    let moon = switched(layers.skylight, skylight::moon_shines(night));
+    let dark = switched(layers.skylight, Shines::Yes);
+    let ground = switched(layers.ground, Shines::Yes);
+    for (layer, shines) in
+        [("sunlit air", sun), ("moonlit air", moon), ("dark sky", dark), ("ground", ground)]
+    {
+        match shines {
+            Shines::Yes => ledger.draw(layer),
+            Shines::No(reason) => ledger.skip(layer, reason),
+        }
+    }
+    let mut sky = skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes)?;
+    if !layers.skylight {
+        sky.dark.fill(Xyzv::BLACK);
+    }
+    if !layers.ground {
+        sky.ground = Xyzv::BLACK;
+    }
+    Ok(sky)
+}
+
+fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
+    use crate::ephemeris::Body;
+    match object.kind {
+        Kind::Body(Body::Sun) => ("Sun", layers.sun),
+        Kind::Body(Body::Moon) => ("Moon", layers.moon),
+        Kind::Body(_) => ("planets", layers.planets),
+        Kind::Star(_) => ("stars", layers.stars),
+    }
+}
+
+fn state_of<'n>(object: &LitObject, night: &'n Night) -> Option<&'n BodyState> {
+    match object.kind {
+        Kind::Body(body) => night.sky.bodies().find(|state| state.body == body),
+        Kind::Star(_) => None,
+    }
+}
+
+/// Whether an object can be seen at all, and if not, why.
+fn visible(
+    object: &LitObject,
+    layers: &Layers,
+    wanted: bool,
+    night: &Night,
+    plan: &FramePlan,
+) -> Result<(), &'static str> {
+    if !wanted {
+        return Err(SWITCHED_OFF);
+    }
+    if layers.magnitude_limit.is_some_and(|limit| object.magnitude.0 > limit) {
+        return Err(TOO_FAINT);
+    }
+    // A disc may show its upper limb when its centre has set.
+    let radius = state_of(object, night).map_or(Angle::ZERO, |state| state.angular_radius);
+    if object.apparent.altitude() + radius < Angle::ZERO {
+        return Err(BELOW_HORIZON);
+    }
+    if object.kind == Kind::Body(night.sky.sun.body) || object.kind == Kind::Body(night.sky.moon.state.body)
+    {
+        return Ok(());
+    }
+    let camera = &plan.camera;
+    let Some(pixel) = pixel_from_apparent(camera, object.apparent) else {
+        return Err(OUT_OF_VIEW);
+    };
+    let peak = object.ground.y * SPLAT_PEAK / camera.pixel_solid_angle_sr(pixel);
+    if peak < DROWNED * plan.sky.luminance(object.apparent).y {
+        return Err(OUTSHONE);
+    }
+    let hidden = |state: &BodyState| state.dir.separation(object.dir) < state.angular_radius;
+    if hidden(&night.sky.sun) || hidden(&night.sky.moon.state) {
+        return Err(HIDDEN);
+    }
+    Ok(())
+}
+
+/// Draws a body as a disc, or as points of light when it is small. False when it is out of view.
+fn lay_body(
+    seen: &SeenBody,
+    moon_map: impl FnOnce() -> Result<Option<MoonMap>, CatalogError>,
+    plan: &mut FramePlan,
+) -> Result<bool, PlanError> {
+    if seen.is_point() {
+        return Ok(lay_point(&plan.camera, seen.apparent(), seen.light(), &mut plan.splats));
+    }
+    let Some(bounds_px) = seen.bounds_px() else { return Ok(false) };
+    let shape = seen.shape(moon_map)?;
+    if seen.is_small() {
+        let samples = shape.samples(body::SMALL_DISC_RINGS);
+        let mut any = false;
+        for sample in samples.iter().filter(|sample| !seen.is_hidden(sample.dir)) {
+            let apparent = seen.apparent_from_horizon(sample.dir);
+            if apparent.altitude() >= Angle::ZERO {
+                let light = seen.light_at(apparent.altitude()) * sample.share;
+                any |= lay_point(&plan.camera, apparent, light, &mut plan.splats);
+            }
+        }
+        return Ok(any);
+    }
+    plan.discs.push(seen.disc(shape, bounds_px));
+    Ok(true)
+}
+
+/// Adds a point of light, again where the picture repeats. False when it is out of view.
+fn lay_point(
+    camera: &Camera,
+    apparent: Dir<Apparent>,
+    illuminance: Xyzv,
+    splats: &mut Vec<Splat>,
+) -> bool {
+    let Some([x, y]) = pixel_from_apparent(camera, apparent) else { return false };
+    let before = splats.len();
+    let turns = camera.wrap_px().map_or([0.0; 3], |wrap| [0.0, -wrap, wrap]);
+    let repeats = if camera.wrap_px().is_some() { 3 } else { 1 };
+    for shift in &turns[..repeats] {
+        let reach = SPLAT_REACH_PX;
+        let inside = |v: f64, edge: u32| (-reach..f64::from(edge) + reach).contains(&v);
+        if inside(x + shift, camera.width_px) && inside(y, camera.height_px) {
+            splats.push(Splat { centre_px: [x + shift, y], illuminance });
+        }
+    }
+    splats.len() > before
+}
+
+/// Where an apparent direction falls on the picture's plane.
+pub fn pixel_from_apparent(camera: &Camera, dir: Dir<Apparent>) -> Option<[f64; 2]> {
+    camera.pixel_from_view(camera.view_from_apparent() * dir)
+}
+
+/// Whether one geometric direction lies within the disc of a body.
+pub fn is_within(state: &BodyState, dir: Dir<Horizon>) -> bool {
+    state.dir.separation(dir) < state.angular_radius
+}

@@ -1,0 +1,129 @@
+//! The light of the sky as tables, from the solved air and what shines into it.
+
+use crate::air::Atmosphere;
+use crate::air::scattering::{
+    AirParameters, Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
+    reconstruction_matrix,
+};
+use crate::light::diffuse;
+use crate::light::night::Night;
+use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
+use crate::sky::BodyState;
+use crate::units::{Angle, Xyzv};
+
+use super::{SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, SourceSky, sky_table_altitude};
+
+/// Below this altitude the Sun lights less of the sky than a hundredth of the natural night.
+pub const SUN_SKY_FLOOR: Angle = Angle::from_deg(-18.0);
+/// Below this altitude the full Moon lights less of the sky than a hundredth of the natural night.
+pub const MOON_SKY_FLOOR: Angle = Angle::from_deg(-8.0);
+/// Above this altitude of the Sun the light of the Moon is under a thousandth of the sky's.
+pub const MOON_SKY_SUN_LIMIT: Angle = Angle::from_deg(-3.0);
+
+/// Whether a source lights the sky, and if not, why.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shines {
+    Yes,
+    No(&'static str),
+}
+
+/// Whether sunlight is scattered into this sky.
+pub fn sun_shines(night: &Night) -> Shines {
+    match night.sky.sun.dir.altitude() < SUN_SKY_FLOOR {
+        true => Shines::No("the Sun is more than 18° below the horizon"),
+        false => Shines::Yes,
+    }
+}
+
+/// Whether moonlight is scattered into this sky.
+pub fn moon_shines(night: &Night) -> Shines {
+    if night.sky.moon.state.dir.altitude() < MOON_SKY_FLOOR {
+        Shines::No("the Moon is more than 8° below the horizon")
+    } else if night.sky.sun.dir.altitude() > MOON_SKY_SUN_LIMIT {
+        Shines::No("sunlight outshines moonlight a thousandfold")
+    } else {
+        Shines::Yes
+    }
+}
+
+/// The air solved once for an atmosphere, and how its few wavelengths become spectra.
+pub struct SolvedAir {
+    tables: ScatteringTables,
+    spectrum_from_nodes: crate::air::scattering::Matrix,
+}
+
+impl SolvedAir {
+    pub fn solve(air: &Atmosphere) -> Result<SolvedAir, ScatteringError> {
+        let parameters = AirParameters {
+            ozone_du: air.ozone_du,
+            aerosol_optical_depth_550: air.aerosol_optical_depth_550,
+            angstrom_exponent: air.angstrom_exponent,
+            aerosol_scale_height_km: air.aerosol_scale_height_km,
+            aerosol_single_scattering_albedo: air.aerosol_single_scattering_albedo,
+            aerosol_asymmetry: air.aerosol_asymmetry,
+            ground_albedo: air.ground_albedo,
+        };
+        let wavelengths: Vec<f64> = (0..LEN).map(wavelength_nm).collect();
+        Ok(SolvedAir {
+            tables: ScatteringTables::solve(&parameters, &SKY_NODES_NM, Quality::RENDER)?,
+            spectrum_from_nodes: reconstruction_matrix(&SKY_NODES_NM, &wavelengths),
+        })
+    }
+
+    /// A source's spectrum weighed by what the air makes of each wavelength.
+    fn weighed(&self, nodes: &[f64], source: &Spectrum) -> Spectrum {
+        Spectrum::from_values(&self.spectrum_from_nodes.spectrum(nodes), source)
+    }
+
+    /// The sky that a source lights, given its spectral irradiance outside the air.
+    fn sky(&self, state: &BodyState, irradiance: &Spectrum, height_km: f64) -> SourceSky {
+        let view =
+            self.tables.sky_view(height_km, state.dir.altitude().sin(), SKY_AZIMUTHS, SKY_ALTITUDES);
+        SourceSky { azimuth: state.dir.azimuth(), luminance: self.luminance(&view, irradiance) }
+    }
+
+    fn luminance(&self, view: &SkyView, irradiance: &Spectrum) -> Vec<Xyzv> {
+        use rayon::prelude::*;
+        view.radiance
+            .par_chunks_exact(view.n_wavelengths)
+            .map(|nodes| {
+                let nodes: Vec<f64> = nodes.iter().map(|&value| f64::from(value)).collect();
+                self.weighed(&nodes, irradiance).xyzv()
+            })
+            .collect()
+    }
+
+    /// Illuminance of level ground by a source, direct and by way of the sky, lux.
+    fn ground(&self, state: &BodyState, irradiance: &Spectrum) -> Xyzv {
+        let (diffuse, direct) = self.tables.ground_irradiance(state.dir.altitude().sin());
+        self.weighed(&diffuse, irradiance).xyzv() + self.weighed(&direct, irradiance).xyzv()
+    }
+}
+
+/// The sky of a night. Solves the air only if something shines into it.
+pub fn sky_plan(night: &Night) -> Result<SkyPlan, ScatteringError> {
+    let height_km = night.sky.place.height_m.max(0.0) / 1000.0;
+    let dark: Vec<Xyzv> = (0..SKY_ALTITUDES)
+        .map(|row| diffuse::night_sky(&night.air, night.sky.place.height_m, sky_table_altitude(row)))
+        .collect();
+    // Level ground under an even sky: pi times its luminance, here that of its middle heights.
+    let mut ground = dark[SKY_ALTITUDES * 2 / 3] * std::f64::consts::PI;
+    let (mut sun, mut moon) = (None, None);
+    let lights = [
+        (sun_shines(night), &night.sky.sun, night.sun_irradiance(), &mut sun),
+        (moon_shines(night), &night.sky.moon.state, night.moon_irradiance(), &mut moon),
+    ];
+    let mut solved = None;
+    for (shines, state, irradiance, sky) in lights {
+        if shines == Shines::Yes {
+            let air = match &solved {
+                Some(air) => air,
+                None => solved.insert(SolvedAir::solve(&night.air)?),
+            };
+            *sky = Some(air.sky(state, &irradiance, height_km));
+            ground += air.ground(state, &irradiance);
+        }
+    }
+    let ground = ground * (night.air.ground_albedo / std::f64::consts::PI);
+    Ok(SkyPlan { sun, moon, dark, ground })
+}
