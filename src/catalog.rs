@@ -42,7 +42,8 @@ pub struct Star {
     pub designation: Option<String>,
     /// Name approved by the IAU, such as `Sirius`.
     pub name: Option<String>,
-    /// Direction at epoch and equinox J2000.0 (FK5, which is ICRS within 0.1 arcsecond).
+    /// Direction at epoch and equinox J2000.0 (FK5, which is ICRS within 0.1 arcsecond). The
+    /// catalogue rounds it to 0.1 s of right ascension and 1 arcsecond of declination.
     pub dir_j2000: Dir<Icrs>,
     /// Proper motion in right ascension times the cosine of declination, arcseconds a year.
     pub proper_motion_ra_arcsec_yr: f64,

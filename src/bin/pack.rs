@@ -92,8 +92,7 @@ fn write(out: &Path, packed: &[Packed]) -> Result<(), String> {
     let sources_path = out.join(SOURCES_FILE);
     let sources = fs::read_to_string(&sources_path)
         .map_err(|error| format!("{}: {error}", sources_path.display()))?;
-    let sources =
-        pack::refresh_sources(&sources, packed).map_err(|error| error.to_string())?;
+    let sources = pack::refresh_sources(&sources, packed).map_err(|error| error.to_string())?;
     for packed in packed {
         let path = out.join(packed.file);
         pack::write_atomically(&path, &packed.bytes).map_err(|error| error.to_string())?;

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::colour::b_v_from_spectral_type;
-use super::csv;
+use super::csv::{self, RowError};
 use super::stars::StarRecord;
 
 /// The columns of the raw catalogue, in order.
@@ -54,7 +54,8 @@ fn designation(field: &str) -> Result<Option<String>, String> {
     if field.trim().is_empty() {
         return Ok(None);
     }
-    let wrong = || format!("the name field {field:?} is not a number, a letter and a constellation");
+    let wrong =
+        || format!("the name field {field:?} is not a number, a letter and a constellation");
     if !field.is_ascii() || field.len() != 10 {
         return Err(wrong());
     }
@@ -79,13 +80,10 @@ fn designation(field: &str) -> Result<Option<String>, String> {
     Err(wrong())
 }
 
-/// A raw table that cannot be what it should: its line, and what is wrong there.
-pub(super) type RawError = (usize, String);
-
 /// Names by HR number, from the list of names that the IAU approved.
 ///
 /// The HIP and HD numbers in the list must be those of the same star in `catalogue`.
-fn names(text: &str) -> Result<HashMap<u16, Name>, RawError> {
+fn names(text: &str) -> Result<HashMap<u16, Name>, RowError> {
     let mut names = HashMap::new();
     for (line, row) in csv::rows(text, NAME_COLUMNS)? {
         let hr = parse(&row[1], "HR number").map_err(|what| (line, what))?;
@@ -111,8 +109,8 @@ struct Name {
 
 /// Which of the two raw tables is wrong.
 pub(super) enum BscError {
-    Catalogue(RawError),
-    Names(RawError),
+    Catalogue(RowError),
+    Names(RowError),
 }
 
 /// The records of all stars that have a position, in the order of HR.
@@ -121,8 +119,7 @@ pub(super) fn records(catalogue: &str, star_names: &str) -> Result<Vec<StarRecor
     let mut records = Vec::new();
     for (line, row) in csv::rows(catalogue, COLUMNS).map_err(BscError::Catalogue)? {
         let row: Vec<&str> = row.iter().map(AsRef::as_ref).collect();
-        let Some(mut record) =
-            record(&row).map_err(|what| BscError::Catalogue((line, what)))?
+        let Some(mut record) = record(&row).map_err(|what| BscError::Catalogue((line, what)))?
         else {
             continue;
         };
@@ -202,7 +199,8 @@ mod tests {
         assert_eq!(read("   Mu  Cas").unwrap(), "μ Cas");
         assert_eq!(read(" 19Tau9Eri").unwrap(), "τ⁹ Eri");
         assert_eq!(read(""), None);
-        for wrong in ["Sirius", "  9Alb CMa", "       CMa", "  9Alp    ", "x 9Alp CMa", "αβγδε"] {
+        for wrong in ["Sirius", "  9Alb CMa", "       CMa", "  9Alp    ", "x 9Alp CMa", "αβγδε"]
+        {
             assert!(designation(wrong).is_err(), "{wrong}");
         }
     }

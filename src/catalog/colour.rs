@@ -95,8 +95,7 @@ enum Luminosity {
 /// Of a composite type the first star counts. None for types outside O to M.
 pub(super) fn b_v_from_spectral_type(spectral_type: &str) -> Option<f64> {
     let (class, luminosity) = parse(spectral_type)?;
-    let giant =
-        |class| interpolate(if class < GIANTS[0].0 { DWARFS } else { GIANTS }, class);
+    let giant = |class| interpolate(if class < GIANTS[0].0 { DWARFS } else { GIANTS }, class);
     Some(match luminosity {
         Luminosity::Dwarf => interpolate(DWARFS, class),
         Luminosity::Subgiant => 0.5 * (interpolate(DWARFS, class) + giant(class)),
@@ -115,9 +114,7 @@ fn parse(spectral_type: &str) -> Option<(f64, Luminosity)> {
     ];
     let (bare, prefix) = prefixes
         .into_iter()
-        .find_map(|(mark, luminosity)| {
-            Some((spectral_type.strip_prefix(mark)?, Some(luminosity)))
-        })
+        .find_map(|(mark, luminosity)| Some((spectral_type.strip_prefix(mark)?, Some(luminosity))))
         .unwrap_or((spectral_type, None));
     let first_star = bare.trim_start_matches(':').split('+').next()?;
     let mut letters = first_star.chars();

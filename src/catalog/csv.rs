@@ -51,13 +51,15 @@ pub(super) fn line(fields: &[String]) -> String {
     quoted.collect::<Vec<_>>().join(",")
 }
 
-/// The rows below the column names, with their line numbers counted from 1.
+/// A line number, counted from 1, and the fields of that line.
+pub(super) type Row<'a> = (usize, Vec<Cow<'a, str>>);
+/// A line number and what is wrong there.
+pub(super) type RowError = (usize, String);
+
+/// The rows below the column names.
 ///
 /// The first line must be exactly `columns`; every row must have as many fields.
-pub(super) fn rows<'a>(
-    text: &'a str,
-    columns: &str,
-) -> Result<Vec<(usize, Vec<Cow<'a, str>>)>, (usize, String)> {
+pub(super) fn rows<'a>(text: &'a str, columns: &str) -> Result<Vec<Row<'a>>, RowError> {
     let mut lines = text.lines().zip(1..);
     if lines.next().map(|(line, _)| line) != Some(columns) {
         return Err((1, format!("the columns are not {columns:?}")));

@@ -11,7 +11,7 @@
 //! display values to REFF by a power law per channel that was fitted to the Hapke maps of
 //! Sato et al. 2014, *JGR Planets* 119, 1775 (rms 0.003 to 0.006).
 
-use super::csv;
+use super::csv::{self, RowError};
 use super::seal::{self, Kind};
 
 pub(super) const KIND: Kind = Kind { magic: b"NOCTMOON", version: 1 };
@@ -50,14 +50,16 @@ struct Channel {
 
 impl Calibration {
     /// From the table with the rows R, G and B.
-    pub(super) fn from_csv(text: &str) -> Result<Calibration, (usize, String)> {
+    pub(super) fn from_csv(text: &str) -> Result<Calibration, RowError> {
         let rows = csv::rows(text, CALIBRATION_COLUMNS)?;
         let mut channels = Vec::new();
         for (line, row) in &rows {
             let number = |column: usize| {
-                row[column].parse::<f64>().ok().filter(|value| (0.01..10.0).contains(value)).ok_or(
-                    (*line, format!("{:?} is not a number from 0.01 to 10", row[column])),
-                )
+                row[column]
+                    .parse::<f64>()
+                    .ok()
+                    .filter(|value| (0.01..10.0).contains(value))
+                    .ok_or((*line, format!("{:?} is not a number from 0.01 to 10", row[column])))
             };
             let [gamma, slope, intercept] = [number(2)?, number(3)?, number(4)?];
             channels.push(Channel { gamma, slope, intercept });

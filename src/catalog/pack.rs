@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::Path;
 
 use super::bsc5::{self, BscError};
+use super::csv::RowError;
 use super::moon::{self, Calibration};
 use super::places;
 use super::seal::sha256_hex;
@@ -66,8 +67,8 @@ pub fn places(raw: &Path) -> Result<Packed, CatalogError> {
 pub fn moon(raw: &Path, rgb: &[u8], size: (usize, usize)) -> Result<Packed, CatalogError> {
     let calibration = Calibration::from_csv(&read_text(raw, RAW_CALIBRATION)?)
         .map_err(|error| raw_error(raw, RAW_CALIBRATION, error))?;
-    let bytes = moon::encode(rgb, size, &calibration)
-        .map_err(|what| CatalogError::Picture { what })?;
+    let bytes =
+        moon::encode(rgb, size, &calibration).map_err(|what| CatalogError::Picture { what })?;
     let (width, height) = moon::PACKED_SIZE;
     let summary = format!("{width} x {height} pixels from {} x {}", size.0, size.1);
     Ok(Packed { file: MOON_FILE, bytes, summary })
@@ -124,7 +125,7 @@ fn read_text(directory: &Path, file: &str) -> Result<String, CatalogError> {
     fs::read_to_string(&path).map_err(|source| CatalogError::RawUnreadable { path, source })
 }
 
-fn raw_error(directory: &Path, file: &str, (line, what): (usize, String)) -> CatalogError {
+fn raw_error(directory: &Path, file: &str, (line, what): RowError) -> CatalogError {
     CatalogError::Raw { path: directory.join(file), line, what }
 }
 

@@ -5,14 +5,13 @@
 
 use std::ops::RangeInclusive;
 
-use super::csv;
+use super::csv::{self, RowError};
 use super::seal::sha256_hex;
 use crate::frame::{Dir, Itrs};
 use crate::units::{Angle, EARTH_EQUATORIAL_RADIUS_KM};
 
 /// The columns of the gazetteer, in order.
-pub const COLUMNS: &str =
-    "name,admin1,region,kind,population,lat_deg,lon_deg,elevation_m,timezone";
+pub const COLUMNS: &str = "name,admin1,region,kind,population,lat_deg,lon_deg,elevation_m,timezone";
 const VERSION: u32 = 1;
 
 const NAME: usize = 0;
@@ -98,7 +97,7 @@ const TIMEZONE_WITHIN_KM: f64 = 200.0;
 ///    in the Alps and on Mauna Kea too: the raw table writes 0 for unknown). It takes the
 ///    elevation of the nearest place that has one.
 /// 3. An empty time zone takes that of the nearest place that has one.
-pub(super) fn clean(raw: &str) -> Result<Cleaned, (usize, String)> {
+pub(super) fn clean(raw: &str) -> Result<Cleaned, RowError> {
     let mut rows: Vec<(usize, Vec<String>)> = csv::rows(raw, COLUMNS)?
         .into_iter()
         .map(|(line, row)| (line, row.into_iter().map(|field| field.into_owned()).collect()))
@@ -153,10 +152,7 @@ pub(super) struct Cleaned {
     pub timezones_filled: usize,
 }
 
-fn correct(
-    rows: &mut [(usize, Vec<String>)],
-    correction: &Correction,
-) -> Result<(), (usize, String)> {
+fn correct(rows: &mut [(usize, Vec<String>)], correction: &Correction) -> Result<(), RowError> {
     let Correction { name, column, wrong, right, .. } = *correction;
     let mut found = rows.iter_mut().filter(|(_, row)| row[NAME] == name && row[column] == wrong);
     match (found.next(), found.next()) {
@@ -218,7 +214,10 @@ fn check(row: &[impl AsRef<str>]) -> Result<(), String> {
 }
 
 fn first_line(table: &str) -> String {
-    format!("# Nocturne gazetteer {VERSION}, SHA-256 of the lines below: {}", sha256_hex(table.as_bytes()))
+    format!(
+        "# Nocturne gazetteer {VERSION}, SHA-256 of the lines below: {}",
+        sha256_hex(table.as_bytes())
+    )
 }
 
 /// The bytes of `places.csv` for a table.
@@ -281,7 +280,8 @@ mod tests {
     fn another_kind_and_another_version_are_named_as_such() {
         let other = open(TABLE.as_bytes().to_vec()).unwrap_err();
         assert!(other.contains("another kind"), "{other}");
-        let newer = String::from_utf8(seal(TABLE)).unwrap().replacen("gazetteer 1", "gazetteer 2", 1);
+        let newer =
+            String::from_utf8(seal(TABLE)).unwrap().replacen("gazetteer 1", "gazetteer 2", 1);
         let newer = open(newer.into_bytes()).unwrap_err();
         assert!(newer.contains("format version 2"), "{newer}");
     }
@@ -319,22 +319,25 @@ mod tests {
     #[test]
     fn corrections_are_made_and_must_find_their_row() {
         let table = clean(&raw("")).unwrap().table;
-        assert!(table.contains("North Georgia Astronomical Observatory,,R,observatory,0,50.0,-84.05389"));
-        assert!(table.contains("Detroit Observatory,,R,observatory,0,50.0,20.0,2000,America/Detroit"));
+        assert!(
+            table
+                .contains("North Georgia Astronomical Observatory,,R,observatory,0,50.0,-84.05389")
+        );
+        assert!(
+            table.contains("Detroit Observatory,,R,observatory,0,50.0,20.0,2000,America/Detroit")
+        );
         let corrected = raw("").replace("84.05389", "-84.05389");
         assert!(clean(&corrected).is_err_and(|(_, what)| what.contains("North Georgia")));
     }
 
     #[test]
     fn unknown_elevations_and_zones_come_from_the_nearest_place_that_has_them() {
-        let cleaned = clean(&raw(
-            "Far,,R,city,1,-10.0,0.4,700,Africa/Lagos\n\
+        let cleaned = clean(&raw("Far,,R,city,1,-10.0,0.4,700,Africa/Lagos\n\
              Near,,R,city,1,-10.0,0.1,300,Africa/Accra\n\
              Dome,,R,observatory,0,-10.0,0.0,0,\n\
              Mine,,R,observatory,0,-10.0,0.3,-2000,UTC\n\
              Port,,R,city,1,-40.0,0.0,-9999,UTC\n\
-             Harbour,,R,city,1,-50.0,0.0,0,UTC\n",
-        ))
+             Harbour,,R,city,1,-50.0,0.0,0,UTC\n"))
         .unwrap();
         assert!(cleaned.table.contains("Dome,,R,observatory,0,-10.0,0.0,300,Africa/Accra"));
         assert!(cleaned.table.contains("Mine,,R,observatory,0,-10.0,0.3,700,UTC"));
