@@ -1,5 +1,6 @@
 //! Files: each whole or not there at all.
 
+pub mod describe;
 #[cfg(feature = "cli")]
 pub mod exr;
 #[cfg(feature = "cli")]

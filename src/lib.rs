@@ -9,10 +9,16 @@ pub mod catalog;
 pub mod place;
 pub mod time;
 
+pub mod ephemeris;
+
+pub mod sky;
+
 pub mod air;
 pub mod eye;
 
 pub mod light;
+
+pub mod scene;
 
 pub mod plan;
 #[cfg(feature = "gpu")]
@@ -21,3 +27,6 @@ pub mod render;
 pub mod export;
 #[cfg(feature = "cli")]
 pub mod overlay;
+
+#[cfg(feature = "cli")]
+pub mod cli;

@@ -7,6 +7,7 @@
 
 pub mod diffuse;
 pub mod moon;
+pub mod night;
 pub mod planets;
 pub mod spectrum;
 pub mod star_colour;

@@ -9,7 +9,7 @@ use crate::air::{AirError, Atmosphere};
 use crate::camera::{Camera, CameraError, Projection};
 use crate::eye::Eye;
 use crate::place::{Place, PlaceError};
-use crate::time::{Instant, TimeError};
+use crate::time::{self, Instant, TimeError};
 use crate::units::Angle;
 
 /// Version of the scene file.
@@ -23,7 +23,9 @@ const TOLERANCE_IN_PIXELS: f64 = 0.1;
 pub enum SceneError {
     #[error("line {line}: {message}")]
     Syntax { line: usize, message: String },
-    #[error("nocturne_scene is {0}, and this program reads version {FORMAT}; use the program that wrote it, or edit it")]
+    #[error(
+        "nocturne_scene is {0}, and this program reads version {FORMAT}; use the program that wrote it, or edit it"
+    )]
     Format(u32),
     #[error("{what} is {value}, outside {low} to {high}; choose a value inside")]
     Range { what: &'static str, value: f64, low: f64, high: f64 },
@@ -169,12 +171,14 @@ impl Scene {
     pub fn to_toml(&self) -> String {
         // Plain structs of numbers, strings and tables have no value that TOML cannot hold.
         let body = toml::to_string(self).expect("a scene is plain data");
-        format!("# A scene of Nocturne: `nocturne render --scene FILE -o sky.png` draws it.\n\n{body}")
+        format!(
+            "# A scene of Nocturne: `nocturne render --scene FILE -o sky.png` draws it.\n\n{body}"
+        )
     }
 
     /// Checks every value and turns it into what it means.
     pub fn setting(&self) -> Result<Setting, SceneError> {
-        let instant = crate::time::parse(&self.utc)?.to_instant(None)?;
+        let instant = time::to_instant(&time::parse(&self.utc)?, None)?;
         let at = &self.place;
         let mut place = Place::new(at.latitude_deg, at.longitude_deg, at.height_m)?;
         place.name.clone_from(&at.name);

@@ -36,9 +36,8 @@ pub fn draw(
 
     // Whether anything can be drawn is known soon, so ask before the long work.
     let renderer = progress.step("graphics adapter", Renderer::new)?;
-    let (plan, ledger) = progress.step("light and air", || {
-        lay(setting, &scene.layers, night, || catalogs.moon_map())
-    })?;
+    let (plan, ledger) = progress
+        .step("light and air", || lay(setting, &scene.layers, night, || catalogs.moon_map()))?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
     let (seen, adaptation_cd_m2) = progress.step("seeing", || {

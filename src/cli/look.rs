@@ -60,7 +60,7 @@ pub fn towards(name: &str, night: &Night) -> Result<Dir<Apparent>, CliError> {
     if altitude_deg < 0.0 {
         return Err(CliError::Usage(format!(
             "--look: {} is below the horizon then and there, at altitude {altitude_deg:.1}°; choose another instant or direction",
-            object.label()
+            night.label(object)
         )));
     }
     Ok(object.apparent)

@@ -60,9 +60,10 @@ impl KindArg {
 }
 
 pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
-    let place = args.location.find(catalogs)?.ok_or_else(|| {
-        CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned())
-    })?;
+    let place = args
+        .location
+        .find(catalogs)?
+        .ok_or_else(|| CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned()))?;
     let instant = stage::instant(&args.at, &place)?;
     let night = stage::night(&instant, &place, TOLERANCE, &Atmosphere::default(), catalogs)?;
     let query = args.query.to_lowercase();

@@ -123,7 +123,10 @@ fn attributes(setting: &Setting) -> Vec<(&'static str, Attribute)> {
     let text = |text: &str| Attribute::Text(text.to_owned());
     let Setting { instant, place, camera, .. } = setting;
     vec![
-        ("units", text("cd/m2; X, Y, Z: CIE 1931 with 683 lm/W; V: CIE 1951 scotopic with 1700 lm/W")),
+        (
+            "units",
+            text("cd/m2; X, Y, Z: CIE 1931 with 683 lm/W; V: CIE 1951 scotopic with 1700 lm/W"),
+        ),
         ("instant_utc", text(&instant.to_string())),
         ("jd_tt", Attribute::Number(instant.tt.jd())),
         ("jd_ut1", Attribute::Number(instant.ut1.jd())),

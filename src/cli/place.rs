@@ -28,10 +28,12 @@ pub fn run(args: &PlaceArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resul
         gazetteer.find(&args.query)?;
     }
     for city in found {
+        let height = city.elevation_m.map_or_else(String::new, |m| format!("{m:.0} m"));
+        let zone = city.time_zone.map_or("", |zone| zone.name());
         writeln!(
             out,
-            "{:<28} {:<28} {:>9.4} {:>10.4} {:>6.0} m  {}",
-            city.name, city.admin1, city.latitude_deg, city.longitude_deg, city.elevation_m, city.time_zone
+            "{:<28} {:<28} {:>9.4} {:>10.4} {height:>7}  {zone}",
+            city.name, city.admin1, city.latitude_deg, city.longitude_deg
         )?;
     }
     Ok(())

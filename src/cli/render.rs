@@ -134,8 +134,7 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
 
     // What describes the picture on standard output is not mixed with words.
     let mut standard_error = std::io::stderr();
-    let report: &mut dyn Write =
-        if written.used_stdout { &mut standard_error } else { &mut *out };
+    let report: &mut dyn Write = if written.used_stdout { &mut standard_error } else { &mut *out };
     if !args.quiet {
         let ledger = drawn.as_ref().map(|drawn| &drawn.ledger);
         summary::write(report, &setting, &night, ledger)?;

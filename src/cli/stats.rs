@@ -15,9 +15,14 @@ pub fn write(
     steps: &[(&'static str, Duration)],
 ) -> io::Result<()> {
     writeln!(out, "\nPositions (tier, stated error)")?;
-    for state in night.sky.bodies() {
+    for state in night.bodies() {
         let error = state.error_bound.arcsec();
-        writeln!(out, "  {:<18} {:<8} {error:>9.1} arcsec", state.body.name(), state.tier.name())?;
+        writeln!(
+            out,
+            "  {:<18} {:<8} {error:>9.1} arcsec",
+            state.body.name(),
+            state.tier.to_string()
+        )?;
     }
     if let Some(drawn) = drawn {
         writeln!(out, "Drawn and skipped")?;

@@ -22,9 +22,10 @@ pub fn write(
     ledger: Option<&Ledger>,
 ) -> io::Result<()> {
     let place = &setting.place;
-    let name = place.name.clone().unwrap_or_else(|| {
-        format!("{:.4}°, {:.4}°", place.latitude.deg(), place.longitude.deg())
-    });
+    let name = place
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("{:.4}°, {:.4}°", place.latitude.deg(), place.longitude.deg()));
     let utc = setting.instant;
     match place.time_zone {
         Some(zone) => {
@@ -89,9 +90,7 @@ fn write_moon(out: &mut dyn Write, setting: &Setting, night: &Night) -> io::Resu
 }
 
 fn write_planets(out: &mut dyn Write, setting: &Setting, night: &Night) -> io::Result<()> {
-    let is_planet = |object: &&LitObject| {
-        matches!(object.kind, Kind::Body(body) if !matches!(body, Body::Sun | Body::Moon))
-    };
+    let is_planet = |object: &&LitObject| matches!(object.kind, Kind::Body(body) if !matches!(body, Body::Sun | Body::Moon));
     let seen: Vec<String> = night
         .objects
         .iter()

@@ -5,11 +5,13 @@ use crate::air::extinction::transmittance;
 use crate::catalog::Star;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::moon::{self, MoonView};
+use crate::light::planets::{self, Planet, PlanetView};
 use crate::light::spectrum::Spectrum;
 use crate::light::star_light::StarLight;
-use crate::light::{moon, planets, sun};
-use crate::sky::{BodyState, SkyState};
-use crate::units::{Angle, Illuminance, Magnitude, Xyzv};
+use crate::light::sun;
+use crate::sky::{BodyState, RingTilt, SkyState};
+use crate::units::{AU_KM, Angle, Illuminance, Magnitude, Xyzv};
 
 /// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
 /// and declinations to 1 arcsecond, in the FK5.
@@ -74,11 +76,8 @@ impl Night {
                 ground,
             }
         };
-        let mut objects = vec![
-            body(&sky.sun, sun::irradiance(sky.sun.distance_km)),
-            body(&sky.moon.state, moon_irradiance(&sky)),
-        ];
-        objects.extend(sky.planets.iter().map(|state| body(state, planet_irradiance(state, &sky))));
+        let mut objects: Vec<LitObject> =
+            bodies(&sky).map(|state| body(state, irradiance(state, &sky))).collect();
 
         let starlight = StarLight::new(air, height_m);
         let directions = sky.stars(&stars);
@@ -101,6 +100,16 @@ impl Night {
             }
         }));
         Night { sky, air: air.clone(), objects, stars }
+    }
+
+    /// Where the Sun, the Moon and the planets stand.
+    pub fn bodies(&self) -> impl Iterator<Item = &BodyState> {
+        bodies(&self.sky)
+    }
+
+    /// Spectral irradiance of a body outside the air, W m-2 nm-1, on a plane that faces it.
+    pub fn irradiance(&self, state: &BodyState) -> Spectrum {
+        irradiance(state, &self.sky)
     }
 
     /// The Sun, the Moon or a planet.
@@ -133,6 +142,47 @@ impl Night {
             }
         })
     }
+}
+
+fn bodies(sky: &SkyState) -> impl Iterator<Item = &BodyState> {
+    [&sky.sun, &sky.moon.state].into_iter().chain(&sky.planets)
+}
+
+fn irradiance(state: &BodyState, sky: &SkyState) -> Spectrum {
+    let planet = match state.body {
+        Body::Sun => return sun::irradiance(state.distance_km),
+        Body::Moon => return moon_irradiance(sky),
+        Body::Mercury => Planet::Mercury,
+        Body::Venus => Planet::Venus,
+        Body::Mars => Planet::Mars,
+        Body::Jupiter => Planet::Jupiter,
+        Body::Saturn => Planet::Saturn,
+        Body::Uranus => Planet::Uranus,
+        Body::Neptune => Planet::Neptune,
+        Body::Pluto => Planet::Pluto,
+    };
+    let latitude = |of: fn(&RingTilt) -> Angle| state.rings.as_ref().map_or(Angle::ZERO, of);
+    let view = PlanetView {
+        sun_distance_au: state.sun_distance_km / AU_KM,
+        observer_distance_au: state.distance_km / AU_KM,
+        phase: state.phase_angle,
+        sun_latitude: latitude(|rings| rings.sun_latitude),
+        observer_latitude: latitude(|rings| rings.observer_latitude),
+        year: 2000.0 + 100.0 * sky.instant.tt.centuries_since_j2000(),
+    };
+    planets::light(planet, &view).spectrum
+}
+
+fn moon_irradiance(sky: &SkyState) -> Spectrum {
+    let moon = &sky.moon;
+    moon::irradiance(&MoonView {
+        phase: moon.state.phase_angle,
+        sun_longitude: Some(moon.subsolar.longitude),
+        observer_longitude: moon.libration.longitude,
+        observer_latitude: moon.libration.latitude,
+        sun_distance_km: moon.state.sun_distance_km,
+        observer_distance_km: moon.state.distance_km,
+    })
 }
 
 /// A name without the differences that people do not mean.

@@ -108,6 +108,11 @@ impl LimbDarkening {
         LimbDarkening(range.coefficients(nm))
     }
 
+    /// Coefficients `a_k` of the polynomial, lowest power first.
+    pub const fn coefficients(&self) -> [f64; 6] {
+        self.0
+    }
+
     /// Radiance relative to the centre of the disc.
     pub fn relative_to_centre(&self, cos_emergence: f64) -> f64 {
         debug_assert!((0.0..=1.0).contains(&cos_emergence));

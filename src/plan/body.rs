@@ -109,7 +109,8 @@ impl<'a> SeenBody<'a> {
         if nodes.step.rad() <= 0.0 {
             return nodes.light[0];
         }
-        let place = ((altitude - nodes.lowest).rad() / nodes.step.rad()).clamp(0.0, (NODES - 1) as f64);
+        let place =
+            ((altitude - nodes.lowest).rad() / nodes.step.rad()).clamp(0.0, (NODES - 1) as f64);
         let low = (place as usize).min(NODES - 2);
         let along = place - low as f64;
         nodes.light[low] * (1.0 - along) + nodes.light[low + 1] * along
@@ -145,7 +146,8 @@ impl<'a> SeenBody<'a> {
         // Across the seam of a panorama, or around its pole, the limb spans the whole width.
         if self.camera.wrap_px().is_some_and(|wrap| last[0] - first[0] > 0.5 * wrap) {
             (first[0], last[0]) = (0.0, width);
-            first[1] = first[1].min(if self.state.dir.altitude().rad() > 0.0 { 0.0 } else { first[1] });
+            first[1] =
+                first[1].min(if self.state.dir.altitude().rad() > 0.0 { 0.0 } else { first[1] });
         }
         let first = [(first[0] - 1.0).floor().max(0.0), (first[1] - 1.0).floor().max(0.0)];
         let last = [(last[0] + 1.0).ceil().min(width), (last[1] + 1.0).ceil().min(height)];

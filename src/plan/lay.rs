@@ -103,7 +103,7 @@ fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
 
 fn state_of<'n>(object: &LitObject, night: &'n Night) -> Option<&'n BodyState> {
     match object.kind {
-        Kind::Body(body) => night.sky.bodies().find(|state| state.body == body),
+        Kind::Body(body) => night.sky.body(body),
         Kind::Star(_) => None,
     }
 }
@@ -127,7 +127,8 @@ fn visible(
     if object.apparent.altitude() + radius < Angle::ZERO {
         return Err(BELOW_HORIZON);
     }
-    if object.kind == Kind::Body(night.sky.sun.body) || object.kind == Kind::Body(night.sky.moon.state.body)
+    if object.kind == Kind::Body(night.sky.sun.body)
+        || object.kind == Kind::Body(night.sky.moon.state.body)
     {
         return Ok(());
     }

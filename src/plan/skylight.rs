@@ -5,9 +5,9 @@ use crate::air::scattering::{
     AirParameters, Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
     reconstruction_matrix,
 };
-use crate::light::diffuse;
+use crate::light::diffuse::NightSky;
 use crate::light::night::Night;
-use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
+use crate::light::spectrum::{FIRST_NM, LEN, STEP_NM, Spectrum, wavelength_nm};
 use crate::sky::BodyState;
 use crate::units::{Angle, Xyzv};
 
@@ -72,13 +72,18 @@ impl SolvedAir {
 
     /// A source's spectrum weighed by what the air makes of each wavelength.
     fn weighed(&self, nodes: &[f64], source: &Spectrum) -> Spectrum {
-        Spectrum::from_values(&self.spectrum_from_nodes.spectrum(nodes), source)
+        let shares = self.spectrum_from_nodes.spectrum(nodes);
+        source.weighted(|nm| shares[((nm - FIRST_NM) / STEP_NM).round() as usize])
     }
 
     /// The sky that a source lights, given its spectral irradiance outside the air.
     fn sky(&self, state: &BodyState, irradiance: &Spectrum, height_km: f64) -> SourceSky {
-        let view =
-            self.tables.sky_view(height_km, state.dir.altitude().sin(), SKY_AZIMUTHS, SKY_ALTITUDES);
+        let view = self.tables.sky_view(
+            height_km,
+            state.dir.altitude().sin(),
+            SKY_AZIMUTHS,
+            SKY_ALTITUDES,
+        );
         SourceSky { azimuth: state.dir.azimuth(), luminance: self.luminance(&view, irradiance) }
     }
 
@@ -101,21 +106,25 @@ impl SolvedAir {
 }
 
 /// The sky of a night. Solves the air only if something shines into it.
-pub fn sky_plan(night: &Night) -> Result<SkyPlan, ScatteringError> {
+pub fn sky_plan(
+    night: &Night,
+    with_sun: bool,
+    with_moon: bool,
+) -> Result<SkyPlan, ScatteringError> {
     let height_km = night.sky.place.height_m.max(0.0) / 1000.0;
+    let natural = NightSky::default();
     let dark: Vec<Xyzv> = (0..SKY_ALTITUDES)
-        .map(|row| diffuse::night_sky(&night.air, night.sky.place.height_m, sky_table_altitude(row)))
+        .map(|row| natural.luminance(&night.air, night.sky.place.height_m, sky_table_altitude(row)))
         .collect();
     // Level ground under an even sky: pi times its luminance, here that of its middle heights.
     let mut ground = dark[SKY_ALTITUDES * 2 / 3] * std::f64::consts::PI;
     let (mut sun, mut moon) = (None, None);
-    let lights = [
-        (sun_shines(night), &night.sky.sun, night.sun_irradiance(), &mut sun),
-        (moon_shines(night), &night.sky.moon.state, night.moon_irradiance(), &mut moon),
-    ];
+    let lights =
+        [(with_sun, &night.sky.sun, &mut sun), (with_moon, &night.sky.moon.state, &mut moon)];
     let mut solved = None;
-    for (shines, state, irradiance, sky) in lights {
-        if shines == Shines::Yes {
+    for (shines, state, sky) in lights {
+        if shines {
+            let irradiance = night.irradiance(state);
             let air = match &solved {
                 Some(air) => air,
                 None => solved.insert(SolvedAir::solve(&night.air)?),
