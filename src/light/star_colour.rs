@@ -5,7 +5,7 @@
 //! to about 0.1 in B-V for ordinary stars, and wrong for carbon stars and M giants, whose bands of
 //! TiO the eye's observers notice.
 
-use crate::light::PointLight;
+use crate::light::point_light::PointLight;
 use crate::light::spectrum::Spectrum;
 use crate::units::Magnitude;
 
