@@ -52,7 +52,7 @@ impl Default for NightSky {
     fn default() -> Self {
         NightSky {
             zenith_mag_per_arcsec2: 22.0,
-            scotopic_over_photopic: CRUMEY_RATIO,
+            scotopic_over_photopic: SKYCALC_RATIO,
             layer_height_km: 90.0,
         }
     }
