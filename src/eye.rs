@@ -1,6 +1,6 @@
 //! A first eye: from absolute light to what a screen shows of it.
 //!
-//! The eye adapts to the geometric mean of what it sees. What it can just tell apart there is
+//! The eye adapts to a mean of what it sees. What it can just tell apart there is
 //! shown as what the viewer of the screen can just tell apart (visibility matching, Ward Larson,
 //! Rushmeier & Piatko 1997, *IEEE TVCG* 3, 291). By night the rods take over and see all light
 //! as a bluish grey (Jensen et al. 2000, *Night Rendering*, UUCS-00-016).
@@ -34,6 +34,24 @@ impl Default for Eye {
         Eye { display_peak_cd_m2: 100.0, exposure_stops: 0.0, adaptation_cd_m2: None, rods: true }
     }
 }
+
+/// What the eye made of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// 8-bit sRGB.
+    pub picture: Image<[u8; 3]>,
+    /// The luminance that the eye was adapted to, cd/m2.
+    pub adaptation_cd_m2: f64,
+}
+
+/// The eye adapts to the mean of this power of the luminance. Nearer to 0, the black around a
+/// magnified Moon would leave it overexposed; nearer to 1, the Sun in the corner of a landscape
+/// would darken all of it. Chosen by eye on the Moon of 2026-08-27 in a field of 0.7 degrees.
+const ADAPTATION_EXPONENT: f64 = 0.4;
+/// Pixels summed at a time.
+const ADAPTATION_PIECE: usize = 1 << 14;
+/// What an eye adapts to that sees nothing, cd/m2: its own noise, about that of a starless sky.
+const DARKEST_CD_M2: f64 = 1e-4;
 
 /// Below this the rods see alone, and above [`CONES_ALONE_LOG`] the cones: log10 of cd/m2
 /// (Jensen et al. 2000).
@@ -71,34 +89,48 @@ pub fn threshold_cd_m2(luminance_cd_m2: f64) -> f64 {
 }
 
 impl Eye {
-    /// What an eye in front of the frame adapts to, cd/m2: the geometric mean of its luminance.
-    pub fn adaptation_cd_m2(&self, frame: &HdrFrame) -> f64 {
+    /// What an eye in front of the frame adapts to, cd/m2.
+    fn adapted_to(&self, frame: &HdrFrame) -> f64 {
         if let Some(given) = self.adaptation_cd_m2 {
             return given;
         }
-        let (mut sum, mut count) = (0.0, 0u64);
-        for pixel in frame.pixels() {
-            let seen = self.seen(*pixel).y;
-            if seen > 0.0 {
-                sum += seen.ln();
-                count += 1;
-            }
+        // Summed piece by piece and in order, so that the same frame gives the same bits.
+        let pieces: Vec<(f64, u64)> = frame
+            .pixels()
+            .par_chunks(ADAPTATION_PIECE)
+            .map(|pixels| {
+                let lit = pixels.iter().map(|&pixel| self.seen(pixel).y).filter(|&y| y > 0.0);
+                lit.fold((0.0, 0), |(sum, n), y| (sum + y.powf(ADAPTATION_EXPONENT), n + 1))
+            })
+            .collect();
+        let (sum, count) = pieces.iter().fold((0.0, 0), |(s, n), piece| (s + piece.0, n + piece.1));
+        if count == 0 {
+            DARKEST_CD_M2
+        } else {
+            (sum / count as f64).powf(1.0 / ADAPTATION_EXPONENT)
         }
-        if count == 0 { 1e-4 } else { (sum / count as f64).exp() }
     }
 
-    /// The frame as the screen shows it: 8-bit sRGB.
-    pub fn see(&self, frame: &HdrFrame) -> Image<[u8; 3]> {
-        let adaptation = self.adaptation_cd_m2(frame);
+    /// The frame as the screen shows it.
+    pub fn see(&self, frame: &HdrFrame) -> Seen {
+        let adaptation_cd_m2 = self.adapted_to(frame);
         let screen_adaptation = self.display_peak_cd_m2 / 2.0;
-        let scale = threshold_cd_m2(screen_adaptation) / threshold_cd_m2(adaptation)
+        let scale = threshold_cd_m2(screen_adaptation) / threshold_cd_m2(adaptation_cd_m2)
             * self.exposure_stops.exp2()
             / self.display_peak_cd_m2;
-        let pixels: Vec<[u8; 3]> =
-            frame.pixels().par_iter().map(|&pixel| self.shown(pixel, scale)).collect();
         let mut picture = Image::filled(frame.width_px(), frame.height_px(), [0; 3]);
-        picture.pixels_mut().copy_from_slice(&pixels);
+        let width = frame.width_px() as usize;
         picture
+            .pixels_mut()
+            .par_chunks_mut(width)
+            .zip(frame.pixels().par_chunks(width))
+            .enumerate()
+            .for_each(|(y, (row, lights))| {
+                for (x, (shown, &light)) in row.iter_mut().zip(lights).enumerate() {
+                    *shown = encoded(self.shown(light, scale), dither(x as u32, y as u32));
+                }
+            });
+        Seen { picture, adaptation_cd_m2 }
     }
 
     /// The light that rods and cones make of a pixel together; X, Y and Z count.
@@ -110,11 +142,11 @@ impl Eye {
         light * cones + grey * ((1.0 - cones) * ROD_GAIN * light.v)
     }
 
-    /// A pixel as sRGB; `scale` takes cd/m2 to shares of the screen's white.
-    fn shown(&self, pixel: [f32; 4], scale: f64) -> [u8; 3] {
+    /// A pixel as sRGB, 0 to 1; `scale` takes cd/m2 to shares of the screen's white.
+    fn shown(&self, pixel: [f32; 4], scale: f64) -> [f64; 3] {
         let seen = self.seen(pixel) * scale;
         if seen.y <= 0.0 {
-            return [0; 3];
+            return [0.0; 3];
         }
         // Reinhard et al. 2002, Eq. 3, on the luminance; the colour stays.
         let luminance = seen.y / (1.0 + seen.y);
@@ -145,12 +177,21 @@ fn within_gamut(rgb: [f64; 3], luminance: f64) -> [f64; 3] {
     rgb.map(|channel| luminance + (channel - luminance) * keep)
 }
 
-/// 8-bit sRGB of linear shares of white.
-fn srgb_from_linear(rgb: [f64; 3]) -> [u8; 3] {
-    rgb.map(|c| {
-        let encoded = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-        (encoded * 255.0).round().clamp(0.0, 255.0) as u8
-    })
+/// sRGB of linear shares of white, IEC 61966-2-1.
+fn srgb_from_linear(rgb: [f64; 3]) -> [f64; 3] {
+    rgb.map(|c| if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 })
+}
+
+/// 8 bits of sRGB, rounded up where the fraction reaches the threshold.
+fn encoded(srgb: [f64; 3], threshold: f64) -> [u8; 3] {
+    srgb.map(|c| (c * 255.0 + 1.0 - threshold).floor().clamp(0.0, 255.0) as u8)
+}
+
+/// Threshold of rounding at a pixel, above 0 and up to 1, spread evenly over neighbours so that
+/// dark gradients show no bands: interleaved gradient noise (Jimenez 2014, SIGGRAPH course).
+fn dither(x: u32, y: u32) -> f64 {
+    let phase = 0.067_110_56 * f64::from(x) + 0.005_837_15 * f64::from(y);
+    1.0 - (52.982_918_9 * phase.fract()).fract()
 }
 
 #[cfg(test)]
@@ -176,14 +217,14 @@ mod tests {
         let eye = Eye::default();
         // The light of a star of the Sun's colour, and that of the night sky.
         for scotopic_ratio in [1.4f32, 2.35] {
-            let shown: Vec<u8> = ladder()
+            let shown: Vec<f64> = ladder()
                 .map(|l| {
                     let y = l as f32;
                     eye.shown([0.95 * y, y, 1.09 * y, scotopic_ratio * y], 20.0)[1]
                 })
                 .collect();
             assert!(shown.windows(2).all(|pair| pair[1] >= pair[0]), "{shown:?}");
-            assert_eq!((shown[0], shown[shown.len() - 1]), (0, 255));
+            assert!(shown[0] < 0.001 && shown[shown.len() - 1] > 0.999, "{shown:?}");
         }
     }
 
@@ -194,19 +235,30 @@ mod tests {
         let [r, g, b] = eye.shown(white(1e-4), 1e4);
         assert!(b > g && g > r, "{r} {g} {b}");
         let [r, g, b] = eye.shown(white(1e3), 1e-3);
-        assert!(r.abs_diff(g) <= 1 && g.abs_diff(b) <= 1, "{r} {g} {b}");
+        assert!((r - g).abs() < 0.002 && (g - b).abs() < 0.002, "{r} {g} {b}");
     }
 
     #[test]
     fn an_eye_adapts_to_what_it_sees() {
         let eye = Eye { rods: false, ..Eye::default() };
         let frame = Image::filled(8, 4, [10.0, 10.0, 10.0, 20.0]);
-        assert!((eye.adaptation_cd_m2(&frame) - 10.0).abs() < 1e-6);
+        assert!((eye.adapted_to(&frame) - 10.0).abs() < 1e-6);
         // What is adapted to is shown as what the screen's viewer adapts to: somewhat over half
         // of white by the ratio of thresholds, 0.357 after compression, 161 encoded.
         let [_, g, _] = Eye { rods: false, ..Eye::default() }
             .see(&Image::filled(4, 4, [950.5, 1000.0, 1089.0, 2300.0]))
+            .picture
             .at(0, 0);
         assert!((160..=162).contains(&g), "{g}");
+    }
+
+    #[test]
+    fn dithering_keeps_the_mean() {
+        for level in [0.0, 10.2, 100.5, 254.9, 255.0] {
+            let pixels = (0..256).flat_map(|y| (0..256).map(move |x| (x, y)));
+            let sum: f64 =
+                pixels.map(|(x, y)| f64::from(encoded([level / 255.0; 3], dither(x, y))[0])).sum();
+            assert!((sum / 65536.0 - level).abs() < 0.01, "{level}: {}", sum / 65536.0);
+        }
     }
 }

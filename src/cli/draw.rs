@@ -40,17 +40,17 @@ pub fn draw(
         .step("light and air", || lay(setting, &scene.layers, night, || catalogs.moon_map()))?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
-    let (seen, adaptation_cd_m2) = progress.step("seeing", || {
+    let seen = progress.step("seeing", || {
         let mut seen = scene.eye.see(&frame);
-        overlay::draw(scene.marks, &mut seen, &setting.camera);
-        (seen, scene.eye.adaptation_cd_m2(&frame))
+        overlay::draw(scene.marks, &mut seen.picture, &setting.camera);
+        seen
     });
     Ok(Drawn {
-        picture: Picture { frame, seen },
+        picture: Picture { frame, seen: seen.picture },
         ledger,
         adapter: renderer.adapter(),
         passes: rendered.times.into_iter().map(|time| (time.pass, time.milliseconds)).collect(),
-        adaptation_cd_m2,
+        adaptation_cd_m2: seen.adaptation_cd_m2,
     })
 }
 
