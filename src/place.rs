@@ -1,5 +1,7 @@
 //! Places on the Earth: geodetic coordinates, their position and their local axes.
 
+pub mod gazetteer;
+
 use chrono_tz::Tz;
 use glam::DVec3;
 use thiserror::Error;
