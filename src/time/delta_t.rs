@@ -38,8 +38,8 @@ const JULIAN_YEAR_DAYS: f64 = JULIAN_CENTURY_DAYS / 100.0;
 const PARABOLA_UNTIL: f64 = -1520.0;
 const PARABOLA_FROM: f64 = 2800.0;
 
-/// The anchor of the future: IERS prediction for 2027-01-28 0h UTC, made in January 2026 and carried
-/// by Skyfield 1.55. The year from its Julian date in TT; Delta-T, and its slope over a year before.
+/// The anchor of the future: the IERS prediction for 2027-01-28 0h UTC with which the table of
+/// Skyfield 1.55 ends. The year from its Julian date in TT; Delta-T, and its slope over a year before.
 const ANCHOR: Point = Point {
     year: 2000.0 + (2_461_428.500_800_741 - J2000) / JULIAN_YEAR_DAYS,
     delta_t_s: 69.090_304_9,
