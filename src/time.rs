@@ -14,8 +14,9 @@
 //!   across such a day are therefore not elapsed time; use [`Instant::plus_seconds`].
 //! - TT = TAI + 32.184 s, UT1 = TT - Delta-T ([`delta_t`]), TDB = TT + a short series ([`tdb`]).
 //!
-//! **How sure.** UT1 is good to about 1 ms where the IERS measured it, to 0.1 s or better after
-//! 1900, to some seconds in 1650, to minutes in antiquity, to hours at -4000; nobody knows better.
+//! **How sure.** UT1 is good to about 1 ms where the IERS measured it, to 0.7 s from 1900 to 1972,
+//! to some seconds in 1650, to minutes in antiquity; at -4000 it is off by hours, one way or the other.
+//! TDB is good to 10 microseconds from 1800 to 2200 and to 50 anywhere.
 
 pub mod clock;
 pub mod error;

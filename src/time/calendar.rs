@@ -55,6 +55,14 @@ impl CivilDateTime {
         minute: u8,
         second: f64,
     ) -> Result<CivilDateTime, TimeError> {
+        let civil = CivilDateTime { year, month, day, hour, minute, second };
+        civil.check()?;
+        Ok(civil)
+    }
+
+    /// What [`CivilDateTime::new`] asks, asked again: the fields are open to all.
+    pub fn check(&self) -> Result<(), TimeError> {
+        let CivilDateTime { year, month, day, hour, minute, second } = *self;
         if !YEARS.contains(&year) {
             return Err(TimeError::Year(year.into()));
         }
@@ -79,13 +87,12 @@ impl CivilDateTime {
         if day > days {
             return Err(TimeError::Day { year, month, day, days });
         }
-        let civil = CivilDateTime { year, month, day, hour, minute, second };
-        let mjd = civil.mjd();
+        let mjd = self.mjd();
         let is_near_leap = (mjd - 1..=mjd + 1).any(|mjd| leap_seconds::day_length_s(mjd) > DAY_S);
         if second >= 60.0 && !is_near_leap {
-            return Err(TimeError::NoLeapSecond(civil.to_string()));
+            return Err(TimeError::NoLeapSecond(self.to_string()));
         }
-        Ok(civil)
+        Ok(())
     }
 
     /// Midnight at the beginning of a date.

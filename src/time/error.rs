@@ -6,30 +6,28 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TimeError {
     #[error(
-        "time: cannot read '{0}'; write a date and time like 2026-08-12T21:30-07:00, \
+        "cannot read '{0}' as a date; write one like 2026-08-12T21:30-07:00, \
          2026-08-12 21:30, -0584-05-28, or now"
     )]
     Syntax(String),
-    #[error("time: {field} {value} is outside {low} to {high}")]
+    #[error("{field} {value} is outside {low} to {high}")]
     Field { field: &'static str, value: i64, low: i64, high: i64 },
-    #[error("time: second {0} is outside 0 to 60 (60 only in a leap second)")]
+    #[error("second {0} is outside 0 to 60 (60 only in a leap second)")]
     Second(f64),
-    #[error("time: {year:04}-{month:02} has {days} days, so there is no day {day}")]
+    #[error("{year:04}-{month:02} has {days} days, so there is no day {day}")]
     Day { year: i32, month: u8, day: u8, days: u8 },
-    #[error(
-        "time: 1582-10-{0:02} never was: 1582-10-04 (Julian) was followed by 1582-10-15 (Gregorian)"
-    )]
+    #[error("1582-10-{0:02} never was: 1582-10-04 (Julian) was followed by 1582-10-15 (Gregorian)")]
     CalendarGap(u8),
-    #[error("time: year {0} is outside -4000 to 4000, the years this sky can be computed for")]
+    #[error("year {0} is outside -4000 to 4000, the years this sky can be computed for")]
     Year(i64),
-    #[error("time: Julian date {0} is outside the years -4000 to 4000")]
+    #[error("Julian date {0} is outside the years -4000 to 4000")]
     JulianDate(f64),
-    #[error("time: there was no leap second at {0} UTC; write second 59 or the next minute")]
+    #[error("there was no leap second at {0}; write second 59 or the next minute")]
     NoLeapSecond(String),
-    #[error("time: offset '{0}' from UTC is outside -18:00 to +18:00")]
+    #[error("offset '{0}' from UTC is outside -18:00 to +18:00")]
     Offset(String),
     #[error(
-        "time: clocks in {zone} jumped over {local}; write a time before or after the jump, \
+        "clocks in {zone} jumped over {local}; write a time before or after the jump, \
          or give its offset from UTC"
     )]
     Skipped { local: String, zone: String },

@@ -47,13 +47,11 @@ impl Instant {
 
     /// From a civil date and time in UTC. Second 60 is accepted in a leap second alone.
     pub fn from_civil_utc(civil: &CivilDateTime) -> Result<Instant, TimeError> {
-        let CivilDateTime { year, month, day, hour, minute, second } = *civil;
-        // The fields are open to all: look at them once more.
-        CivilDateTime::new(year, month, day, hour, minute, second)?;
+        civil.check()?;
         let mjd = civil.mjd();
         let day_length_s = leap_seconds::day_length_s(mjd);
         let is_in_leap_second = civil.second_of_day() >= DAY_S && day_length_s > DAY_S;
-        if second >= 60.0 && !is_in_leap_second {
+        if civil.second >= 60.0 && !is_in_leap_second {
             return Err(TimeError::NoLeapSecond(civil.to_string()));
         }
         let day_length_s = if is_utc_kept(mjd) { day_length_s } else { DAY_S };
@@ -162,13 +160,16 @@ mod tests {
     }
 
     #[test]
-    fn leap_seconds_that_never_were_are_refused() {
+    fn civil_times_that_never_were_are_refused() {
         // The day is right, the minute is not; the day after; a year without.
         for (year, month, day, hour) in [(2016, 12, 31, 22), (2017, 1, 1, 23), (2015, 12, 31, 23)] {
             let civil = CivilDateTime { year, month, day, hour, minute: 59, second: 60.0 };
             let refused = Instant::from_civil_utc(&civil);
             assert!(matches!(refused, Err(TimeError::NoLeapSecond(_))), "{refused:?}");
         }
+        let civil =
+            CivilDateTime { year: 2026, month: 13, day: 1, hour: 0, minute: 0, second: 0.0 };
+        assert!(matches!(Instant::from_civil_utc(&civil), Err(TimeError::Field { .. })));
     }
 
     #[test]

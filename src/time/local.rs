@@ -65,6 +65,7 @@ impl fmt::Display for IsoOffset {
 /// Its own offset from UTC comes first, then the time zone, then UTC. A time that clocks showed
 /// twice, when daylight saving ended, is taken as the first; one that they jumped over is refused.
 pub fn to_instant(written: &Written, zone: Option<Tz>) -> Result<Instant, TimeError> {
+    written.civil.check()?;
     let offset_s = match (written.offset_s, zone) {
         (Some(offset_s), _) => offset_s,
         (None, Some(zone)) => offset_in_zone_s(&written.civil, zone)?,
@@ -162,7 +163,7 @@ mod tests {
         let skipped = to_instant(&parse("2026-03-08T02:30").unwrap(), zone).unwrap_err();
         assert_eq!(
             skipped.to_string(),
-            "time: clocks in America/Denver jumped over 2026-03-08T02:30:00; write a time before \
+            "clocks in America/Denver jumped over 2026-03-08T02:30:00; write a time before \
              or after the jump, or give its offset from UTC"
         );
         // The first 01:30 is still daylight saving time, UTC - 6 h.
