@@ -13,7 +13,7 @@
 //!
 //! *Accuracy.* True pole and equinox within 0.005" of IAU 2006/2000A in 1800-2200. The
 //! precession is good to a few arcseconds in historical times (Vondrák et al.), nutation to 0.1"
-//! beyond. Sidereal time is within 0.003" of IAU 2006 in 1800-2200 and consistent with the
+//! beyond. Sidereal time is within 0.002" of IAU 2006 in 1800-2200 and consistent with the
 //! precession everywhere. Polar motion (at most 0.6") is omitted.
 
 mod nutation;
@@ -95,14 +95,144 @@ pub fn earth_rotation_angle(ut1: JulianDate<Ut1>) -> Angle {
 ///
 /// The Earth rotation angle less the travel of the mean equinox along the moving equator. The
 /// equinox stood 0.014506" west of the origin of the rotation angle at J2000.0 (Capitaine, Wallace
-/// & Chapront 2003, eq. 42).
+/// & Chapront 2003, eq. 42). The loops of nutation, which the mean equator does not make, carry that
+/// origin along by 3808.65 microarcseconds a century (IERS Conventions 2010, table 5.2d).
 pub fn mean_sidereal_time(ut1: JulianDate<Ut1>, tt: JulianDate<Tt>) -> Angle {
-    let travel = precession::equinox_travel(tt.centuries_since_j2000());
-    (earth_rotation_angle(ut1) + Angle::from_arcsec(0.014_506) - travel).positive()
+    let t = tt.centuries_since_j2000();
+    let origin = Angle::from_arcsec(0.014_506 - 0.003_808_65 * t);
+    (earth_rotation_angle(ut1) + origin - precession::equinox_travel(t)).positive()
 }
 
 /// Greenwich apparent sidereal time, in `[0, 2 pi)`.
 pub fn apparent_sidereal_time(ut1: JulianDate<Ut1>, tt: JulianDate<Tt>) -> Angle {
     let equation_of_equinoxes = nutation(tt).equation_of_equinoxes(mean_obliquity(tt));
     (mean_sidereal_time(ut1, tt) + equation_of_equinoxes).positive()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    use crate::ephemeris::polynomial::polynomial;
+
+    #[test]
+    fn sidereal_time_follows_iau_2006_while_that_holds() {
+        // Capitaine, Wallace & Chapront 2003, eq. 42 with the signs of its powers, arcseconds.
+        let iau = [
+            0.014_506,
+            4_612.156_534,
+            1.391_581_7,
+            -0.000_000_44,
+            -0.000_029_956,
+            -0.000_000_036_8,
+        ];
+        let tolerances_arcsec =
+            [(-10.0, 0.05), (-2.0, 0.002), (-0.5, 2e-4), (0.0, 1e-9), (0.3, 2e-4), (2.0, 0.002)];
+        for (t, tolerance_arcsec) in tolerances_arcsec {
+            let (ut1, tt) = (
+                JulianDate::from_jd(2_451_545.25),
+                JulianDate::from_jd(2_451_545.0 + 36_525.0 * t),
+            );
+            let expected = earth_rotation_angle(ut1) + Angle::from_arcsec(polynomial(&iau, t));
+            let error = (mean_sidereal_time(ut1, tt) - expected).signed();
+            assert!(error.abs().arcsec() < tolerance_arcsec, "{t}: {} arcsec", error.arcsec());
+        }
+    }
+
+    /// Values of ERFA 2.0.1 (`nut06a`, `gst06a`, `pnm06a`): Julian date (TT, UT1 0.75 days
+    /// earlier), nutation in longitude and obliquity, apparent sidereal time, true equinox and true
+    /// pole in ICRS axes.
+    #[test]
+    fn orientation_agrees_with_iau_2006_and_2000a() {
+        let truth: [(f64, f64, f64, f64, [f64; 3], [f64; 3]); 8] = [
+            (
+                2378496.5,
+                -8.527613,
+                7.228171,
+                3.310179308087,
+                [0.998810516861, 0.044712984774, 0.019449946042],
+                [-0.019451516041, -0.000400013368, 0.999810721343],
+            ),
+            (
+                2415020.3,
+                17.398811,
+                -2.292028,
+                2.046432580442,
+                [0.999705003751, 0.022273809916, 0.009684155511],
+                [-0.009683909637, -0.000118903344, 0.999953102778],
+            ),
+            (
+                2433282.7,
+                -3.281349,
+                8.316780,
+                4.564608720202,
+                [0.999925525368, 0.011192629608, 0.004865055046],
+                [-0.004865506649, 0.000013118673, 0.999988163266],
+            ),
+            (
+                2451545.0,
+                -13.932003,
+                -5.769398,
+                0.169608707650,
+                [0.999999997721, 0.000061899864, 0.000026948114],
+                [-0.000026946380, -0.000028004721, 0.999999999245],
+            ),
+            (
+                2455197.9,
+                16.522243,
+                2.839652,
+                5.832835972355,
+                [0.999996828617, -0.002309912090, -0.001003524805],
+                [0.001003556500, 0.000012562380, 0.999999496358],
+            ),
+            (
+                2460676.1,
+                0.135171,
+                8.486110,
+                0.798769462275,
+                [0.999981419462, -0.005591063285, -0.002429144396],
+                [0.002429374061, 0.000034286070, 0.999997048479],
+            ),
+            (
+                2488069.5,
+                3.288400,
+                8.564317,
+                3.316121932079,
+                [0.999702303052, -0.022379302243, -0.009719676095],
+                [0.009720602155, -0.000067405772, 0.999952751559],
+            ),
+            (
+                2524593.5,
+                11.083523,
+                -8.015050,
+                3.312412687021,
+                [0.998807818227, -0.044778409998, -0.019438010352],
+                [0.019436264292, -0.000474415071, 0.999810985417],
+            ),
+        ];
+        for (jd, longitude_arcsec, obliquity_arcsec, sidereal_rad, equinox, pole) in truth {
+            let tt = JulianDate::from_jd(jd);
+            let instant = Instant {
+                utc: JulianDate::from_jd(jd - 0.75),
+                ut1: JulianDate::from_jd(jd - 0.75),
+                tt,
+                tdb: tt.read_on(0.0),
+            };
+            let axes = Orientation::at(&instant);
+            let nutation = nutation(tt);
+            assert!((nutation.longitude.arcsec() - longitude_arcsec).abs() < 0.005, "{jd}");
+            assert!((nutation.obliquity.arcsec() - obliquity_arcsec).abs() < 0.005, "{jd}");
+            let sidereal_error = (axes.sidereal_time - Angle::from_rad(sidereal_rad)).signed();
+            assert!(sidereal_error.abs().arcsec() < 0.006, "{jd}: {}", sidereal_error.arcsec());
+            let icrs_from_true = axes.true_from_icrs().inverse().matrix();
+            for (axis, expected) in
+                [(icrs_from_true.x_axis, equinox), (icrs_from_true.z_axis, pole)]
+            {
+                let error_arcsec =
+                    Angle::from_rad((axis - DVec3::from(expected)).length()).arcsec();
+                assert!(error_arcsec < 0.006, "{jd}: {error_arcsec}");
+            }
+        }
+    }
 }
