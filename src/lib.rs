@@ -4,5 +4,6 @@ pub mod catalog;
 pub mod ephemeris;
 pub mod frame;
 pub mod place;
+pub mod sky;
 pub mod time;
 pub mod units;

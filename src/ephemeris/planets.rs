@@ -11,7 +11,7 @@ use glam::DVec3;
 use terms::{ARGUMENT_RATE, Elements};
 
 use crate::ephemeris::polynomial::polynomial;
-use crate::frame::{Icrs, Pos, turn_axes_x};
+use crate::frame::{Dir, Icrs, Pos, turn_axes_x};
 use crate::time::{JulianDate, Tdb};
 use crate::units::{AU_KM, Angle};
 
@@ -153,4 +153,13 @@ pub fn pluto(tdb: JulianDate<Tdb>) -> Pos<Icrs> {
         inclination: Angle::from_deg(17.141_042_60 + 0.000_005_01 * t),
     }
     .position()
+}
+
+/// North pole of Saturn and of its rings.
+///
+/// Archinal et al. 2018, *Celest. Mech. Dyn. Astron.* 130, 22, table 1 (WGCCRE 2015), in ICRS axes:
+/// right ascension 40.589 - 0.036 T, declination 83.537 - 0.004 T degrees, T in Julian centuries.
+pub fn saturn_pole(tdb: JulianDate<Tdb>) -> Dir<Icrs> {
+    let t = tdb.centuries_since_j2000();
+    Dir::from_spherical(Angle::from_deg(40.589 - 0.036 * t), Angle::from_deg(83.537 - 0.004 * t))
 }

@@ -1,0 +1,188 @@
+//! Where everything stands in the sky of one place at one instant: directions, distances, phases
+//! and sizes. Not how bright, and not refracted.
+
+use crate::catalog::Star;
+use crate::ephemeris::apparent::{ApparentPlace, Observer};
+use crate::ephemeris::moon_orientation::{Libration, moon_fixed_from_icrs};
+use crate::ephemeris::stars::StarReduction;
+use crate::ephemeris::{
+    Body, EarthState, EphemerisError, Tier, Tolerance, choose, earth, saturn_pole,
+};
+use crate::frame::{Dir, Horizon, Icrs, MoonFixed, Rot};
+use crate::place::Place;
+use crate::time::Instant;
+use crate::units::{Angle, DAY_S, LIGHT_SPEED_KM_S};
+
+/// The sky of one place at one instant, geometric: what stands there without air.
+#[derive(Debug, Clone)]
+pub struct SkyState {
+    pub instant: Instant,
+    pub place: Place,
+    /// Axes alone: what is fixed in space and far away, such as the Milky Way, without aberration.
+    pub horizon_from_icrs: Rot<Horizon, Icrs>,
+    /// Angle from the mean equator to the mean ecliptic of date.
+    pub mean_obliquity: Angle,
+    pub sun: BodyState,
+    pub moon: MoonState,
+    /// Mercury to Pluto, outwards.
+    pub planets: Vec<BodyState>,
+    stars: StarReduction,
+}
+
+/// One body as it stands in the sky.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyState {
+    pub body: Body,
+    /// The theory that was good enough.
+    pub tier: Tier,
+    /// Bound of the error of `dir`.
+    pub error_bound: Angle,
+    /// Topocentric, with aberration, without air.
+    pub dir: Dir<Horizon>,
+    /// From the observer, along the way of the light.
+    pub distance_km: f64,
+    /// From the body to the Sun when the light left the body; zero for the Sun.
+    pub sun_distance_km: f64,
+    /// Angle Sun, body, observer; zero for the Sun.
+    pub phase_angle: Angle,
+    /// Angle between the centre and the limb: equatorial radius over distance.
+    pub angular_radius: Angle,
+    /// From the body to the Sun; for the Sun itself, to the observer.
+    pub dir_to_sun: Dir<Horizon>,
+    /// For Saturn alone.
+    pub rings: Option<RingTilt>,
+}
+
+/// How Saturn's rings are turned: heights above the ring plane, positive on its north side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingTilt {
+    /// Latitude of the observer as seen from Saturn.
+    pub observer_latitude: Angle,
+    /// Latitude of the Sun as seen from Saturn.
+    pub sun_latitude: Angle,
+    /// Saturn's north pole in local axes.
+    pub pole: Dir<Horizon>,
+}
+
+/// The Moon as it stands in the sky.
+#[derive(Debug, Clone, Copy)]
+pub struct MoonState {
+    pub state: BodyState,
+    /// Turns the Moon's map to where it is seen.
+    pub horizon_from_moon_fixed: Rot<Horizon, MoonFixed>,
+    /// Point of the Moon below the observer: topocentric libration.
+    pub libration: Libration,
+    /// Point of the Moon below the Sun.
+    pub subsolar: Libration,
+}
+
+impl SkyState {
+    /// The sky at an instant and a place, each body within `tolerance` if any tier is as good, else
+    /// by the best there is.
+    pub fn at(
+        instant: &Instant,
+        place: &Place,
+        tolerance: Tolerance,
+    ) -> Result<SkyState, EphemerisError> {
+        let observer = Observer::at(instant, place);
+        let mut earths = Earths { observer: &observer, known: Vec::new() };
+        let mut seen = |body: Body| -> Result<(BodyState, ApparentPlace), EphemerisError> {
+            let (tier, error_bound) = choose(body, tolerance, instant.tdb)?;
+            let apparent = ApparentPlace::of(body, tier, &observer, &earths.by(tier)?)?;
+            Ok((body_state(body, tier, error_bound, &apparent, &observer), apparent))
+        };
+        let (sun, _) = seen(Body::Sun)?;
+        let (moon, moon_place) = seen(Body::Moon)?;
+        let planets = Body::PLANETS
+            .into_iter()
+            .map(|planet| seen(planet).map(|(state, _)| state))
+            .collect::<Result<Vec<_>, _>>()?;
+        // Aberration and parallax of stars ask for the velocity of the Earth: 0.5" by the paper.
+        let (star_tier, _) = choose(Body::Sun, tolerance, instant.tdb)?;
+        let stars = StarReduction::new(&observer, &earths.by(star_tier)?);
+        Ok(SkyState {
+            instant: *instant,
+            place: place.clone(),
+            horizon_from_icrs: observer.horizon_from_icrs,
+            mean_obliquity: observer.orientation.mean_obliquity,
+            sun,
+            moon: moon_state(moon, &moon_place, &observer),
+            planets,
+            stars,
+        })
+    }
+
+    /// Where the stars stand: proper motion, parallax, aberration; no air.
+    pub fn stars(&self, stars: &[Star]) -> Vec<Dir<Horizon>> {
+        self.stars.horizon_all(stars)
+    }
+
+    /// The state of a body, whichever it is.
+    pub fn body(&self, body: Body) -> Option<&BodyState> {
+        match body {
+            Body::Sun => Some(&self.sun),
+            Body::Moon => Some(&self.moon.state),
+            _ => self.planets.iter().find(|planet| planet.body == body),
+        }
+    }
+}
+
+/// The Earth by each tier that somebody asked for.
+struct Earths<'a> {
+    observer: &'a Observer,
+    known: Vec<(Tier, EarthState)>,
+}
+
+impl Earths<'_> {
+    fn by(&mut self, tier: Tier) -> Result<EarthState, EphemerisError> {
+        if let Some((_, state)) = self.known.iter().find(|(known, _)| *known == tier) {
+            return Ok(*state);
+        }
+        let state = earth(self.observer.tdb, tier)?;
+        self.known.push((tier, state));
+        Ok(state)
+    }
+}
+
+fn body_state(
+    body: Body,
+    tier: Tier,
+    error_bound: Angle,
+    apparent: &ApparentPlace,
+    observer: &Observer,
+) -> BodyState {
+    let to_observer = -apparent.from_observer.dir();
+    let to_sun = if body == Body::Sun { to_observer } else { -apparent.from_sun.dir() };
+    let distance_km = apparent.topocentric_distance_km;
+    let rings = (body == Body::Saturn).then(|| {
+        let pole = saturn_pole(observer.tdb);
+        RingTilt {
+            observer_latitude: Angle::from_rad(pole.dot(to_observer).clamp(-1.0, 1.0).asin()),
+            sun_latitude: Angle::from_rad(pole.dot(to_sun).clamp(-1.0, 1.0).asin()),
+            pole: observer.horizon_from_icrs * pole,
+        }
+    });
+    BodyState {
+        body,
+        tier,
+        error_bound,
+        dir: apparent.horizon,
+        distance_km,
+        sun_distance_km: apparent.from_sun.distance_km(),
+        phase_angle: to_sun.separation(to_observer),
+        angular_radius: Angle::from_rad((body.radius_km() / distance_km).min(1.0).asin()),
+        dir_to_sun: observer.horizon_from_icrs * to_sun,
+        rings,
+    }
+}
+
+fn moon_state(state: BodyState, apparent: &ApparentPlace, observer: &Observer) -> MoonState {
+    let light_time_s = apparent.topocentric_distance_km / LIGHT_SPEED_KM_S;
+    let axes = moon_fixed_from_icrs(observer.tdb.plus_days(-light_time_s / DAY_S));
+    MoonState {
+        state,
+        horizon_from_moon_fixed: observer.horizon_from_icrs * axes.inverse(),
+        libration: Libration::facing(axes, -apparent.from_observer.dir()),
+        subsolar: Libration::facing(axes, -apparent.from_sun.dir()),
+    }
+}
