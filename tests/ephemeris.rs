@@ -248,7 +248,7 @@ fn the_moon_turns_as_its_integrated_librations_say() {
         ] {
             let error_deg = (angle - row.angle(column)).signed().deg();
             largest.note(format!("{column}, degrees"), error_deg);
-            assert!(error_deg.abs() < 0.02, "{column} at {:?}: {error_deg}", instant.tt);
+            assert!(error_deg.abs() < 0.012, "{column} at {:?}: {error_deg}", instant.tt);
         }
     });
     largest.print();
