@@ -7,18 +7,19 @@
 //!
 //! *Omitted.* The Sun's potential in the aberration and the delay of light by gravity (below
 //! 0.000001"), deflection by Jupiter (0.016" at its limb), the motion of the Sun about the
-//! barycentre (0.011" of aberration, see [`super::tier::earth`]), polar motion (0.6" at most),
+//! barycentre (0.011" of aberration, see [`super::position::earth`]), polar motion (0.6" at most),
 //! air.
 
 use glam::DVec3;
 
 use super::body::Body;
 use super::orientation::Orientation;
-use super::tier::{self, EarthState, EphemerisError, Tier};
+use super::position::{self, EarthState};
+use super::tier::{EphemerisError, Tier};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
 use crate::time::{Instant, JulianDate, Tdb};
-use crate::units::{AU_KM, DAY_S, LIGHT_SPEED_KM_S};
+use crate::units::{DAY_S, LIGHT_SPEED_KM_S};
 
 /// Rotation of the Earth, radians per second (IERS Conventions 2010, table 1.2).
 const EARTH_ROTATION_RAD_S: f64 = 7.292_115e-5;
@@ -88,7 +89,7 @@ impl ApparentPlace {
         earth: &EarthState,
     ) -> Result<ApparentPlace, EphemerisError> {
         let tdb = observer.tdb;
-        let now = tier::geometric(body, tdb, tier)?;
+        let now = position::geometric(body, tdb, tier)?;
         let (retarded, light_time_s) = light_left(body, tier, tdb, now, earth.position);
         let from_earth = retarded - earth.position;
         // The observer is up to 21 ms of light closer or farther: the body moves on for that time.
@@ -99,7 +100,7 @@ impl ApparentPlace {
         let from_observer = moved - earth.position - observer.position;
 
         // Not barycentric: the Sun stays where it is for as long as light travels.
-        let sun = tier::unchecked(Body::Sun, tdb, tier);
+        let sun = position::unchecked(Body::Sun, tdb, tier);
         let earth_from_sun = (earth.position - sun).km();
         let observer_from_sun = earth_from_sun + observer.position.km();
         let seen = |from: Pos<Icrs>, origin_from_sun: DVec3, velocity_km_s: DVec3| {
@@ -137,7 +138,7 @@ fn light_left(
     let (mut retarded, mut light_time_s) = (now, light_time(now));
     // Each round gains a factor of 10^4, the ratio of light to planets.
     for _ in 0..3 {
-        retarded = tier::unchecked(body, tdb.plus_days(-light_time_s / DAY_S), tier);
+        retarded = position::unchecked(body, tdb.plus_days(-light_time_s / DAY_S), tier);
         let corrected_s = light_time(retarded);
         let change_s = corrected_s - light_time_s;
         light_time_s = corrected_s;
@@ -170,15 +171,10 @@ pub fn aberrate(dir: Dir<Icrs>, velocity_km_s: DVec3) -> Dir<Icrs> {
     Dir::from_vector(dir.vector() * inverse_gamma + beta * (1.0 + along / (1.0 + inverse_gamma)))
 }
 
-/// A distance in kilometres as astronomical units.
-pub const fn au_from_km(distance_km: f64) -> f64 {
-    distance_km / AU_KM
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::Angle;
+    use crate::units::{AU_KM, Angle};
 
     #[test]
     fn aberration_is_that_of_special_relativity() {

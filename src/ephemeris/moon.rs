@@ -5,7 +5,7 @@
 //! time (Meeus subtracts 0.7 arcseconds), because light time is taken into account elsewhere. The
 //! frame is the ecliptic of date of the long-term precession.
 //!
-//! *Accuracy.* 19" at most in 1550-2650 against DE440 and DE431, growing to 5 arcminutes at -4000;
+//! *Accuracy.* 20" at most in 1550-2650 against DE440 and DE431, growing to 5 arcminutes at -4000;
 //! the tidal acceleration within the mean elements suits modern ephemerides without correction.
 
 mod terms;

@@ -1,9 +1,9 @@
 //! The planets by the mean elements and periodic terms of Simon et al. 1994, A&A 282, 663.
 //!
-//! *Accuracy.* Heliocentric, against DE431: within 6" for Mercury, Venus and the Earth, 26" for
-//! Mars, 90" for Jupiter to Neptune in 1800-2050; the paper states 1000-3000 as its range and we
-//! measured it beyond, down to half a degree for Saturn at -4000 (see the table in
-//! [`crate::ephemeris`]).
+//! *Accuracy.* Heliocentric, in 1800-2050 (ERFA's comparison of the same theory with DE200): 9" for
+//! Mercury, Venus and the Earth, 26" for Mars, 90" for Jupiter, Saturn and Uranus, 11" for Neptune.
+//! The paper states 1000-3000 as its range; we measured it beyond, to half a degree for Saturn at
+//! -4000 (see the table in [`crate::ephemeris`]).
 
 mod terms;
 

