@@ -366,7 +366,7 @@ fn check_plan(plan: &FramePlan) {
 }
 
 proptest! {
-    #![proptest_config(cases(200))]
+    #![proptest_config(cases(60))]
 
     #[test]
     fn plans_hold_no_nonsense(mut scene in scenes()) {
