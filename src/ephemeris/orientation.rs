@@ -145,8 +145,8 @@ mod tests {
     /// pole in ICRS axes.
     #[test]
     fn orientation_agrees_with_iau_2006_and_2000a() {
-        #[allow(clippy::type_complexity, reason = "one row, six columns")]
-        let truth: [(f64, f64, f64, f64, [f64; 3], [f64; 3]); 8] = [
+        type Axis = [f64; 3];
+        let truth: [(f64, f64, f64, f64, Axis, Axis); 8] = [
             (
                 2378496.5,
                 -8.527613,

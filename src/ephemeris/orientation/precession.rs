@@ -163,7 +163,8 @@ mod tests {
     /// Equinox and poles of equator and ecliptic in ICRS axes: ERFA 2.0.1, `ltpb` and `ltecm`.
     #[test]
     fn axes_agree_with_erfa_over_millennia() {
-        let truth: [(f64, [f64; 3], [f64; 3], [f64; 3]); 3] = [
+        type Axis = [f64; 3];
+        let truth: [(f64, Axis, Axis, Axis); 3] = [
             (
                 -3000.0,
                 [0.356410564486, 0.853057573862, 0.381135520780],
