@@ -146,7 +146,7 @@ impl Quality {
                 above: 20,
                 below: 10,
                 azimuths: 12,
-                steps: steps(36, 40.0, 40.0),
+                steps: steps(60, 20.0, 20.0),
             },
             higher_orders: Directions {
                 above: 8,
@@ -155,7 +155,7 @@ impl Quality {
                 steps: steps(14, 50.0, 50.0),
             },
             tolerance: 3e-3,
-            view: steps(48, 40.0, 3.0),
+            view: steps(80, 20.0, 3.0),
         },
         molecular: Resolution {
             degree: 2,
@@ -164,7 +164,7 @@ impl Quality {
                 above: 12,
                 below: 6,
                 azimuths: 8,
-                steps: steps(36, 40.0, 40.0),
+                steps: steps(60, 20.0, 20.0),
             },
             higher_orders: Directions {
                 above: 6,
@@ -173,7 +173,7 @@ impl Quality {
                 steps: steps(14, 50.0, 50.0),
             },
             tolerance: 3e-3,
-            view: steps(48, 40.0, 40.0),
+            view: steps(80, 20.0, 20.0),
         },
     };
     /// For a quick look: degree 4 with aerosol, some per cent by day, 10 % or more in deep twilight.
@@ -185,7 +185,7 @@ impl Quality {
                 above: 12,
                 below: 6,
                 azimuths: 6,
-                steps: steps(24, 50.0, 50.0),
+                steps: steps(30, 40.0, 40.0),
             },
             higher_orders: Directions {
                 above: 6,
@@ -203,7 +203,7 @@ impl Quality {
                 above: 8,
                 below: 4,
                 azimuths: 4,
-                steps: steps(24, 50.0, 50.0),
+                steps: steps(30, 40.0, 40.0),
             },
             higher_orders: Directions {
                 above: 6,
