@@ -1,0 +1,51 @@
+//! What the tests that draw have in common.
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use nocturne::catalog::Catalogs;
+use nocturne::image::HdrFrame;
+use nocturne::light::night::Night;
+use nocturne::plan::lay::lay;
+use nocturne::render::Renderer;
+use nocturne::scene::{Scene, Setting};
+use nocturne::sky::SkyState;
+
+/// A test that draws.
+pub type GpuTest = fn(&Renderer) -> Result<(), Failed>;
+
+/// Runs tests with one renderer; without an adapter each of them is reported as ignored.
+pub fn run(tests: Vec<(String, Box<dyn Fn(&Renderer) -> Result<(), Failed> + Send>)>) -> ! {
+    let arguments = Arguments::from_args();
+    let renderer: Option<&'static Renderer> = match Renderer::new() {
+        Ok(renderer) => Some(Box::leak(Box::new(renderer))),
+        Err(error) => {
+            eprintln!("tests that draw are ignored: {error}");
+            None
+        }
+    };
+    let trials = tests
+        .into_iter()
+        .map(|(name, test)| {
+            Trial::test(name, move || match renderer {
+                Some(renderer) => test(renderer),
+                None => Err("no adapter".into()),
+            })
+            .with_ignored_flag(renderer.is_none())
+        })
+        .collect();
+    libtest_mimic::run(&arguments, trials).exit()
+}
+
+/// Fails with a message unless something holds.
+pub fn check(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failed> {
+    if holds { Ok(()) } else { Err(message().into()) }
+}
+
+/// A scene, drawn, with the night that is in it.
+pub fn drawn(renderer: &Renderer, scene: &Scene) -> Result<(HdrFrame, Setting, Night), Failed> {
+    let catalogs = Catalogs::locate(None)?;
+    let setting = scene.setting()?;
+    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
+    let night = Night::of(sky, catalogs.stars()?, &scene.air);
+    let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
+    Ok((renderer.frame(&plan)?.frame, setting, night))
+}
