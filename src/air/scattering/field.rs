@@ -206,9 +206,9 @@ impl Field {
             let mut sum = (step.molecules + step.aerosol) * Y00;
             for l in 1..=self.degree {
                 let mut part = Lanes::ZERO;
-                for m in 0..=l {
+                for (m, c) in c[..=l].iter().enumerate() {
                     let k = index(l, m);
-                    part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                    part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
                 }
                 let [molecules, aerosol] = optics.moments[l];
                 sum += (step.molecules * molecules + step.aerosol * aerosol) * part;
@@ -218,9 +218,9 @@ impl Field {
         } else {
             let c = [1.0, x, 2.0 * x * x - sin2 as f32];
             let mut part = Lanes::ZERO;
-            for m in 0..=2 {
+            for (m, c) in c.iter().enumerate() {
                 let k = index(2, m);
-                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
             }
             step.molecules * (part * optics.moments[2][0] + Lanes::splat(Y00)) * m00
         }

@@ -221,3 +221,59 @@ fn iterate(
     }
     field
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{AirParameters, Quality};
+    use super::*;
+    use crate::air::scattering::profile::Profile;
+
+    /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
+    ///
+    /// The light that comes straight from the sky fills in what scattering takes from it: half of
+    /// the radiance below is a field that depends on height and direction, solved as for the Sun.
+    #[test]
+    fn a_uniform_sky_stays_uniform() {
+        let air = AirParameters { ozone_du: 0.0, ground_albedo: 1.0, ..AirParameters::molecular() };
+        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
+        let optics = Optics::new(&air, &[400.0, 500.0]);
+        let resolution = Quality::PREVIEW.molecular;
+        let mut direct = Field::new(resolution.degree, resolution.altitudes);
+        let altitudes_km = direct.altitudes_km.clone();
+        let medium =
+            Medium { geometry: &geometry, optics: &optics, altitudes_km: &altitudes_km, degree: 2 };
+        let from_space = |ray: &Ray| match ray.ground_km {
+            Some(_) => Lanes::ZERO,
+            None => ray.transmittance,
+        };
+        let unscattered = Sweep::new(&medium, &resolution.first_order)
+            .moments(&direct, |ray, _, out| out.fill(from_space(ray)));
+        direct.set(&unscattered.moments, &unscattered.ground);
+        let sweep = Sweep::new(&medium, &resolution.higher_orders);
+        let first = sweep.gather(&medium, &direct);
+        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-4);
+
+        let mut row = vec![Lanes::ZERO; field.row_len()];
+        for (height_km, cos_view) in [
+            (0.0, 1.0),
+            (0.0, 0.3),
+            (0.0, 0.02),
+            (3.0, 0.1),
+            (3.0, -0.5),
+            (20.0, -0.05),
+            (20.0, -0.9),
+        ] {
+            let ray = Ray::cut(&medium, &resolution.view, height_km, cos_view);
+            let source = Source::new(0.3, cos_view, 0.2);
+            let mut radiance = [from_space(&ray)];
+            for part in [&direct, &field] {
+                add_higher_orders(&medium, part, &ray, &[source], &mut row, &mut radiance);
+            }
+            for lane in [0, 1] {
+                let radiance = radiance[0].0[lane];
+                println!("{radiance}");
+                assert!((radiance - 1.0).abs() < 5e-3, "{height_km} km, {cos_view}: {radiance}");
+            }
+        }
+    }
+}
