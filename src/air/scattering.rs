@@ -153,7 +153,7 @@ impl Quality {
             higher_orders: Directions {
                 above: 10,
                 below: 5,
-                azimuths: 8,
+                azimuths: 6,
                 steps: steps(14, 50.0, 50.0),
             },
             tolerance: 5e-3,
@@ -240,8 +240,10 @@ impl Resolution {
             return refuse("the tolerance of the iteration must be above 0");
         }
         for d in [&self.first_order, &self.higher_orders] {
-            if d.above == 0 || d.below == 0 || d.azimuths == 0 {
-                return refuse("a node needs directions above and below the horizon and azimuths");
+            if d.above == 0 || d.below == 0 || d.azimuths < 3 {
+                return refuse(
+                    "a node needs directions above and below the horizon, and 3 azimuths",
+                );
             }
         }
         for s in [&self.first_order.steps, &self.higher_orders.steps, &self.view] {
