@@ -89,6 +89,7 @@ pub(crate) fn altitude_grid_km(count: usize) -> Vec<f64> {
 /// The field for one band of wavelengths.
 #[derive(Debug, Clone)]
 pub(crate) struct Field {
+    /// Highest degree `l` kept.
     pub degree: usize,
     pub altitudes_km: Vec<f64>,
     pub sources: SourceGrid,
@@ -205,22 +206,25 @@ impl Field {
             let c = azimuthal_part(self.degree, x, sin2 as f32);
             let mut sum = (step.molecules + step.aerosol) * Y00;
             for l in 1..=self.degree {
-                let mut part = Lanes::ZERO;
-                for m in 0..=l {
+                let (mut below, mut above) = (Lanes::ZERO, Lanes::ZERO);
+                for (m, c) in c[..=l].iter().enumerate() {
                     let k = index(l, m);
-                    part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                    let y = step.zonal[k] * c;
+                    below += low[k] * y;
+                    above += high[k] * y;
                 }
                 let [molecules, aerosol] = optics.moments[l];
-                sum += (step.molecules * molecules + step.aerosol * aerosol) * part;
+                sum += (step.molecules * molecules + step.aerosol * aerosol)
+                    * below.lerp(above, at.weight);
             }
             // A cut-off series can dip below zero where little light comes from.
             (sum * m00).map(|v| v.max(0.0))
         } else {
             let c = [1.0, x, 2.0 * x * x - sin2 as f32];
             let mut part = Lanes::ZERO;
-            for m in 0..=2 {
+            for (m, c) in c.iter().enumerate() {
                 let k = index(2, m);
-                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
             }
             step.molecules * (part * optics.moments[2][0] + Lanes::splat(Y00)) * m00
         }

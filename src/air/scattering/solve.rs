@@ -11,8 +11,7 @@ use rayon::prelude::*;
 use super::Resolution;
 use super::field::Field;
 use super::harmonics::{
-    MAX_COEFFICIENTS, MAX_DEGREE, azimuthal_part, coefficient_count, gauss_legendre, index,
-    zonal_part,
+    MAX_COEFFICIENTS, MAX_DEGREE, azimuthal_part, gauss_legendre, index, zonal_part,
 };
 use super::lanes::Lanes;
 use super::profile::Optics;
@@ -44,6 +43,7 @@ struct Spoke {
 /// Harmonics in the directions of one spoke: what takes its radiances to moments.
 struct Basis {
     degree: usize,
+    order: usize,
     zonal: [f32; MAX_COEFFICIENTS],
     azimuthal: Vec<[f32; MAX_DEGREE + 1]>,
 }
@@ -51,7 +51,7 @@ struct Basis {
 impl Basis {
     /// Adds the share of radiances, one per azimuth, to the moments of a node.
     fn project(&self, radiances: &[Lanes], node: &mut [Lanes]) {
-        for m in 0..=self.degree {
+        for m in 0..=self.order {
             let mut sum = Lanes::ZERO;
             for (c, &radiance) in self.azimuthal.iter().zip(radiances) {
                 sum += radiance * c[m];
@@ -129,7 +129,7 @@ impl Sweep {
             .collect();
 
         let n_az = self.azimuths.len();
-        let (degree, stride) = (field.degree, coefficient_count(field.degree));
+        let stride = field.stride();
         let mut moments = vec![Lanes::ZERO; field.altitudes_km.len() * cosines.len() * stride];
         let per_altitude = self.spokes.len() / field.altitudes_km.len();
         moments
@@ -139,7 +139,7 @@ impl Sweep {
             )
             .for_each(|(nodes, (spokes, seen))| {
                 for (spoke, seen) in spokes.iter().zip(seen) {
-                    let basis = self.basis(spoke, degree);
+                    let basis = self.basis(spoke, field.degree);
                     for (node, seen) in nodes.chunks_exact_mut(stride).zip(seen.chunks_exact(n_az))
                     {
                         basis.project(seen, node);
@@ -163,13 +163,16 @@ impl Sweep {
         let mu = spoke.ray.cos_zenith;
         let sin2 = 1.0 - mu * mu;
         let solid_angle = (spoke.weight * 2.0 * PI / self.azimuths.len() as f64) as f32;
+        // Orders from the number of azimuths on look like lower ones at their midpoints.
+        let order = degree.min(self.azimuths.len() - 1);
         Basis {
             degree,
+            order,
             zonal: zonal_part(degree, mu).map(|y| y * solid_angle),
             azimuthal: self
                 .azimuths
                 .iter()
-                .map(|&a| azimuthal_part(degree, (sin2.sqrt() * a) as f32, sin2 as f32))
+                .map(|&a| azimuthal_part(order, (sin2.sqrt() * a) as f32, sin2 as f32))
                 .collect(),
         }
     }
@@ -220,4 +223,59 @@ fn iterate(
         }
     }
     field
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{AirParameters, Quality};
+    use super::*;
+    use crate::air::scattering::profile::Profile;
+
+    /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
+    ///
+    /// The light that comes straight from the sky fills in what scattering takes from it: half of
+    /// the radiance below is a field that depends on height and direction, solved as for the Sun.
+    #[test]
+    fn a_uniform_sky_stays_uniform() {
+        let air = AirParameters { ozone_du: 0.0, ground_albedo: 1.0, ..AirParameters::molecular() };
+        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
+        let optics = Optics::new(&air, &[400.0, 500.0]);
+        let resolution = Quality::RENDER.molecular;
+        let mut direct = Field::new(resolution.degree, resolution.altitudes);
+        let altitudes_km = direct.altitudes_km.clone();
+        let medium =
+            Medium { geometry: &geometry, optics: &optics, altitudes_km: &altitudes_km, degree: 2 };
+        let from_space = |ray: &Ray| match ray.ground_km {
+            Some(_) => Lanes::ZERO,
+            None => ray.transmittance,
+        };
+        let unscattered = Sweep::new(&medium, &resolution.first_order)
+            .moments(&direct, |ray, _, out| out.fill(from_space(ray)));
+        direct.set(&unscattered.moments, &unscattered.ground);
+        let sweep = Sweep::new(&medium, &resolution.higher_orders);
+        let first = sweep.gather(&medium, &direct);
+        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-4);
+
+        let mut row = vec![Lanes::ZERO; field.row_len()];
+        for (height_km, cos_view) in [
+            (0.0, 1.0),
+            (0.0, 0.3),
+            (0.0, 0.02),
+            (3.0, 0.1),
+            (3.0, -0.5),
+            (20.0, -0.05),
+            (20.0, -0.9),
+        ] {
+            let ray = Ray::cut(&medium, &resolution.view, height_km, cos_view);
+            let source = Source::new(0.3, cos_view, 0.2);
+            let mut radiance = [from_space(&ray)];
+            for part in [&direct, &field] {
+                add_higher_orders(&medium, part, &ray, &[source], &mut row, &mut radiance);
+            }
+            for lane in [0, 1] {
+                let radiance = radiance[0].0[lane];
+                assert!((radiance - 1.0).abs() < 3e-3, "{height_km} km, {cos_view}: {radiance}");
+            }
+        }
+    }
 }
