@@ -16,7 +16,7 @@ use nocturne::image::HdrFrame;
 use nocturne::overlay;
 use nocturne::render::Renderer;
 use nocturne::scene::Scene;
-use support::{check, drawn};
+use support::{GpuTest, check, drawn};
 
 /// Set to `write` to draw the goldens again.
 const WRITE_VARIABLE: &str = "NOCTURNE_GOLDENS";
@@ -37,15 +37,10 @@ fn main() {
         .collect();
     scenes.sort();
     assert!(!scenes.is_empty(), "no scene in {}", folder.display());
-    support::run(
-        scenes
-            .into_iter()
-            .map(|path| {
-                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                (name, Box::new(move |renderer: &Renderer| golden(renderer, &path)) as _)
-            })
-            .collect(),
-    );
+    support::run(scenes.into_iter().map(|path| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        GpuTest::new(name, move |renderer| golden(renderer, &path))
+    }))
 }
 
 fn golden(renderer: &Renderer, path: &Path) -> Result<(), Failed> {

@@ -37,12 +37,14 @@ const REACH: u32 = 3;
 const BELT: [f64; 2] = [198.2, 51.9];
 
 fn main() {
-    let tests: [(&str, GpuTest); 3] = [
-        ("fifty_stars_have_their_flux_at_any_size_and_field", fifty_stars_have_their_flux),
-        ("objects_stand_where_the_description_says", objects_stand_where_described),
-        ("the_moon_and_the_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
-    ];
-    support::run(tests.into_iter().map(|(n, t)| (n.to_owned(), Box::new(t) as _)).collect());
+    support::run([
+        GpuTest::new(
+            "fifty_stars_have_their_flux_at_any_size_and_field",
+            fifty_stars_have_their_flux,
+        ),
+        GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
+        GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
+    ])
 }
 
 fn scene() -> Scene {

@@ -1,5 +1,8 @@
 //! What the tests that draw have in common.
 
+// Not every test that draws uses all of it.
+#![allow(dead_code)]
+
 use libtest_mimic::{Arguments, Failed, Trial};
 use nocturne::catalog::Catalogs;
 use nocturne::image::HdrFrame;
@@ -10,10 +13,22 @@ use nocturne::scene::{Scene, Setting};
 use nocturne::sky::SkyState;
 
 /// A test that draws.
-pub type GpuTest = fn(&Renderer) -> Result<(), Failed>;
+pub struct GpuTest {
+    name: String,
+    draws: Box<dyn Fn(&Renderer) -> Result<(), Failed> + Send>,
+}
+
+impl GpuTest {
+    pub fn new(
+        name: impl Into<String>,
+        draws: impl Fn(&Renderer) -> Result<(), Failed> + Send + 'static,
+    ) -> GpuTest {
+        GpuTest { name: name.into(), draws: Box::new(draws) }
+    }
+}
 
 /// Runs tests with one renderer; without an adapter each of them is reported as ignored.
-pub fn run(tests: Vec<(String, Box<dyn Fn(&Renderer) -> Result<(), Failed> + Send>)>) -> ! {
+pub fn run(tests: impl IntoIterator<Item = GpuTest>) -> ! {
     let arguments = Arguments::from_args();
     let renderer: Option<&'static Renderer> = match Renderer::new() {
         Ok(renderer) => Some(Box::leak(Box::new(renderer))),
@@ -24,9 +39,9 @@ pub fn run(tests: Vec<(String, Box<dyn Fn(&Renderer) -> Result<(), Failed> + Sen
     };
     let trials = tests
         .into_iter()
-        .map(|(name, test)| {
+        .map(|GpuTest { name, draws }| {
             Trial::test(name, move || match renderer {
-                Some(renderer) => test(renderer),
+                Some(renderer) => draws(renderer),
                 None => Err("no adapter".into()),
             })
             .with_ignored_flag(renderer.is_none())
