@@ -10,7 +10,7 @@ use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::image::HdrFrame;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
-use support::{GpuTest, check, drawn};
+use support::{GpuTest, check, drawn, laid};
 
 /// A moonless winter night: Orion, Sirius and Jupiter high in the south.
 const NIGHT: &str = r#"
@@ -44,6 +44,7 @@ fn main() {
         ),
         GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
         GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
+        GpuTest::new("the_sky_is_that_of_its_tables", sky_is_that_of_its_tables),
     ])
 }
 
@@ -209,6 +210,32 @@ fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
             check(error.abs() < 0.01, || {
                 format!("{name}, {fov_deg}° on {width_px} px: off by {error:.4}")
             })?;
+        }
+    }
+    Ok(())
+}
+
+fn sky_is_that_of_its_tables(renderer: &Renderer) -> Result<(), Failed> {
+    // Twilight with a Moon: all three tables are at work.
+    let mut scene = scene();
+    scene.utc = "2026-08-24T02:45:00Z".to_owned();
+    (scene.camera.azimuth_deg, scene.camera.altitude_deg) = (225.0, 30.0);
+    (scene.layers.stars, scene.layers.planets, scene.layers.moon) = (false, false, false);
+    let (plan, _, setting, _) = laid(&scene)?;
+    check(plan.sky.sun.is_some() && plan.sky.moon.is_some(), || "no twilight".to_owned())?;
+    let frame = renderer.frame(&plan)?.frame;
+    let camera = &setting.camera;
+    for x in (7..camera.width_px).step_by(31) {
+        for y in (5..camera.height_px).step_by(17) {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let view = camera.view_from_pixel(pixel).ok_or("no sky there")?;
+            let dir = camera.view_from_apparent().inverse() * view;
+            if dir.altitude().deg() < 0.2 {
+                continue;
+            }
+            let (drawn, expected) = (frame.xyzv(x, y), plan.sky.luminance(dir));
+            let error = (drawn.y / expected.y - 1.0).abs().max((drawn.v / expected.v - 1.0).abs());
+            check(error < 1e-3, || format!("pixel {x}, {y} is off by {error:.5}"))?;
         }
     }
     Ok(())

@@ -7,15 +7,19 @@ use libtest_mimic::{Arguments, Failed, Trial};
 use nocturne::catalog::Catalogs;
 use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
+use nocturne::plan::FramePlan;
 use nocturne::plan::lay::lay;
+use nocturne::plan::ledger::Ledger;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
 use nocturne::sky::SkyState;
 
+type Draws = dyn Fn(&Renderer) -> Result<(), Failed> + Send;
+
 /// A test that draws.
 pub struct GpuTest {
     name: String,
-    draws: Box<dyn Fn(&Renderer) -> Result<(), Failed> + Send>,
+    draws: Box<Draws>,
 }
 
 impl GpuTest {
@@ -55,12 +59,18 @@ pub fn check(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failed
     if holds { Ok(()) } else { Err(message().into()) }
 }
 
-/// A scene, drawn, with the night that is in it.
-pub fn drawn(renderer: &Renderer, scene: &Scene) -> Result<(HdrFrame, Setting, Night), Failed> {
+/// A scene as it is laid on the picture, with the night that is in it.
+pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed> {
     let catalogs = Catalogs::locate(None)?;
     let setting = scene.setting()?;
     let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
-    let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
+    Ok((plan, ledger, setting, night))
+}
+
+/// A scene, drawn, with the night that is in it.
+pub fn drawn(renderer: &Renderer, scene: &Scene) -> Result<(HdrFrame, Setting, Night), Failed> {
+    let (plan, _, setting, night) = laid(scene)?;
     Ok((renderer.frame(&plan)?.frame, setting, night))
 }
