@@ -233,7 +233,7 @@ mod tests {
 
     /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
     ///
-    /// The light that comes straight from the sky fills in what scattering takes from it: half of
+    /// The light that comes straight from the sky fills in what scattering takes from it: much of
     /// the radiance below is a field that depends on height and direction, solved as for the Sun.
     #[test]
     fn a_uniform_sky_stays_uniform() {
