@@ -13,8 +13,8 @@
 //! water, wavelengths under 360 nm.
 //!
 //! Accuracy, against backward Monte Carlo (`tests/sky_radiance.rs`), median and most: without aerosol
-//! 0.15 % and 0.6 % by day, 0.4 % and 1.6 % to 6 degrees below the horizon, 0.8 % and 2.4 % to 12; with
-//! aerosol 0.5 % and 1.8 %, 0.8 % and 2.3 %, 1.8 % and 12 %, the noise of the reference (to 8.5 %)
+//! 0.15 % and 0.6 % by day, 0.4 % and 1.6 % to 6 degrees below the horizon, 0.9 % and 2.4 % to 12; with
+//! aerosol 0.5 % and 1.8 %, 0.8 % and 2.3 %, 2 % and 12 %, the noise of the reference (to 8.5 %)
 //! included. Below 14 degrees only its own convergence is known: some per cent.
 
 mod columns;

@@ -227,20 +227,23 @@ fn iterate(
 
 #[cfg(test)]
 mod tests {
+    use super::super::profile::Profile;
     use super::super::{AirParameters, Quality};
     use super::*;
-    use crate::air::scattering::profile::Profile;
 
     /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
     ///
-    /// The light that comes straight from the sky fills in what scattering takes from it: half of
+    /// The light that comes straight from the sky fills in what scattering takes from it: much of
     /// the radiance below is a field that depends on height and direction, solved as for the Sun.
     #[test]
     fn a_uniform_sky_stays_uniform() {
         let air = AirParameters { ozone_du: 0.0, ground_albedo: 1.0, ..AirParameters::molecular() };
         let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
         let optics = Optics::new(&air, &[400.0, 500.0]);
-        let resolution = Quality::RENDER.molecular;
+        // Coarse: every node is solved here for the same sky as often as there are sources.
+        let preview = Quality::PREVIEW.molecular;
+        let directions = Directions { azimuths: 3, ..preview.higher_orders };
+        let resolution = Resolution { altitudes: 12, higher_orders: directions, ..preview };
         let mut direct = Field::new(resolution.degree, resolution.altitudes);
         let altitudes_km = direct.altitudes_km.clone();
         let medium =
@@ -249,12 +252,12 @@ mod tests {
             Some(_) => Lanes::ZERO,
             None => ray.transmittance,
         };
-        let unscattered = Sweep::new(&medium, &resolution.first_order)
+        let unscattered = Sweep::new(&medium, &resolution.higher_orders)
             .moments(&direct, |ray, _, out| out.fill(from_space(ray)));
         direct.set(&unscattered.moments, &unscattered.ground);
         let sweep = Sweep::new(&medium, &resolution.higher_orders);
         let first = sweep.gather(&medium, &direct);
-        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-4);
+        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-3);
 
         let mut row = vec![Lanes::ZERO; field.row_len()];
         for (height_km, cos_view) in [
@@ -274,7 +277,7 @@ mod tests {
             }
             for lane in [0, 1] {
                 let radiance = radiance[0].0[lane];
-                assert!((radiance - 1.0).abs() < 3e-3, "{height_km} km, {cos_view}: {radiance}");
+                assert!((radiance - 1.0).abs() < 5e-3, "{height_km} km, {cos_view}: {radiance}");
             }
         }
     }
