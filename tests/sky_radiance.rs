@@ -3,18 +3,19 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{
-    AirParameters, Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
+    Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
 };
 use nocturne::units::Angle;
 
 const WAVELENGTHS_NM: [f64; 3] = [450.0, 550.0, 650.0];
 const OBSERVER_KM: f64 = 0.001;
 
-static MOLECULAR: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&AirParameters::molecular()));
-static HAZY: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&AirParameters::default()));
+static MOLECULAR: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&Atmosphere::molecular()));
+static HAZY: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&Atmosphere::default()));
 
-fn solve(air: &AirParameters) -> ScatteringTables {
+fn solve(air: &Atmosphere) -> ScatteringTables {
     ScatteringTables::solve(air, &WAVELENGTHS_NM, Quality::RENDER).unwrap()
 }
 
@@ -178,7 +179,7 @@ fn looking_down_from_above_the_haze_shows_the_ground() {
 
 #[test]
 fn wavelengths_beyond_a_band_keep_their_order() {
-    let air = AirParameters::molecular();
+    let air = Atmosphere::molecular();
     let nodes = [SKY_NODES_NM.as_slice(), &[550.0]].concat();
     let tables = ScatteringTables::solve(&air, &nodes, Quality::PREVIEW).unwrap();
     let single = ScatteringTables::solve(&air, &[550.0], Quality::PREVIEW).unwrap();
@@ -199,14 +200,14 @@ fn what_cannot_be_solved_is_refused() {
     let solve = |air, wavelengths: &[f64]| {
         ScatteringTables::solve(&air, wavelengths, Quality::PREVIEW).unwrap_err()
     };
-    let fine = AirParameters::default();
-    assert_eq!(solve(fine, &[]), ScatteringError::NoWavelengths);
-    assert_eq!(solve(fine, &[550.0, 1200.0]), ScatteringError::Wavelength(1200.0));
-    let foggy = AirParameters { aerosol_optical_depth_550: 7.0, ..fine };
+    let fine = Atmosphere::default();
+    assert_eq!(solve(fine.clone(), &[]), ScatteringError::NoWavelengths);
+    assert_eq!(solve(fine.clone(), &[550.0, 1200.0]), ScatteringError::Wavelength(1200.0));
+    let foggy = Atmosphere { aerosol_optical_depth_550: 7.0, ..fine.clone() };
     assert_eq!(
         solve(foggy, &[550.0]).to_string(),
-        "air: aerosol optical depth is 7, give a value from 0 to 3"
+        "air: aerosol_optical_depth_550 is 7, outside 0 to 3; choose a value inside"
     );
-    let no_number = AirParameters { ozone_du: f64::NAN, ..fine };
-    assert!(matches!(solve(no_number, &[550.0]), ScatteringError::Parameter { .. }));
+    let no_number = Atmosphere { ozone_du: f64::NAN, ..fine };
+    assert!(matches!(solve(no_number, &[550.0]), ScatteringError::Air(_)));
 }

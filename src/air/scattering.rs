@@ -30,6 +30,7 @@ mod view;
 
 use rayon::prelude::*;
 
+use crate::air::{AirError, Atmosphere};
 use crate::units::Angle;
 use field::Field;
 use lanes::{LANES, Lanes};
@@ -41,71 +42,11 @@ pub use reconstruction::{Matrix, SKY_NODES_NM, reconstruction_matrix};
 pub use solve::Directions;
 use view::{Source, add_higher_orders, first_order};
 
-/// What a clear atmosphere is made of, and what it stands on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AirParameters {
-    /// Column of ozone, Dobson units, 0 to 1000.
-    pub ozone_du: f64,
-    /// Vertical optical depth of the aerosol at 550 nm, 0 to 3.
-    pub aerosol_optical_depth_550: f64,
-    /// How fast that falls with wavelength: `(lambda / 550 nm)^-exponent`, -2 to 4.
-    pub angstrom_exponent: f64,
-    /// Scale height of the aerosol, km, 0.5 to 10.
-    pub aerosol_scale_height_km: f64,
-    /// Part of the aerosol's extinction that is scattering, 0 to 1.
-    pub aerosol_single_scattering_albedo: f64,
-    /// Mean cosine of scattering by aerosol (Henyey-Greenstein), -0.9 to 0.9.
-    pub aerosol_asymmetry: f64,
-    /// Lambert albedo of the ground, 0 to 1.
-    pub ground_albedo: f64,
-}
-
-impl Default for AirParameters {
-    /// A clear continental sky: 300 DU of ozone, aerosol of optical depth 0.1.
-    fn default() -> Self {
-        AirParameters {
-            ozone_du: 300.0,
-            aerosol_optical_depth_550: 0.1,
-            angstrom_exponent: 1.3,
-            aerosol_scale_height_km: 1.2,
-            aerosol_single_scattering_albedo: 0.95,
-            aerosol_asymmetry: 0.7,
-            ground_albedo: 0.1,
-        }
-    }
-}
-
-impl AirParameters {
-    /// Air without aerosol, otherwise as by default.
-    pub fn molecular() -> Self {
-        AirParameters { aerosol_optical_depth_550: 0.0, ..AirParameters::default() }
-    }
-
-    fn check(&self) -> Result<(), ScatteringError> {
-        let ranges = [
-            ("ozone column (DU)", self.ozone_du, 0.0, 1000.0),
-            ("aerosol optical depth", self.aerosol_optical_depth_550, 0.0, 3.0),
-            ("Angstrom exponent", self.angstrom_exponent, -2.0, 4.0),
-            ("aerosol scale height (km)", self.aerosol_scale_height_km, 0.5, 10.0),
-            ("single scattering albedo", self.aerosol_single_scattering_albedo, 0.0, 1.0),
-            ("aerosol asymmetry", self.aerosol_asymmetry, -0.9, 0.9),
-            ("ground albedo", self.ground_albedo, 0.0, 1.0),
-        ];
-        for (name, value, low, high) in ranges {
-            // Written so that NaN is refused too.
-            if !(low..=high).contains(&value) {
-                return Err(ScatteringError::Parameter { name, value, low, high });
-            }
-        }
-        Ok(())
-    }
-}
-
 /// Why no tables could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScatteringError {
-    #[error("air: {name} is {value}, give a value from {low} to {high}")]
-    Parameter { name: &'static str, value: f64, low: f64, high: f64 },
+    #[error(transparent)]
+    Air(#[from] AirError),
     #[error("air: wavelength {0} nm has no cross-sections here, give one from 360 to 830 nm")]
     Wavelength(f64),
     #[error("air: no wavelengths given, give at least one")]
@@ -218,7 +159,7 @@ impl Quality {
         },
     };
 
-    fn of(&self, air: &AirParameters) -> Resolution {
+    fn of(&self, air: &Atmosphere) -> Resolution {
         if air.aerosol_optical_depth_550 > 0.0 { self.with_aerosol } else { self.molecular }
     }
 }
@@ -275,11 +216,11 @@ pub struct ScatteringTables {
 impl ScatteringTables {
     /// Solves for the field. Wavelengths in nm, 360 to 830, in any order; eight cost as much as one.
     pub fn solve(
-        air: &AirParameters,
+        air: &Atmosphere,
         wavelengths_nm: &[f64],
         quality: Quality,
     ) -> Result<ScatteringTables, ScatteringError> {
-        air.check()?;
+        air.validate()?;
         let resolution = quality.of(air);
         resolution.check()?;
         if wavelengths_nm.is_empty() {

@@ -227,9 +227,10 @@ fn iterate(
 
 #[cfg(test)]
 mod tests {
+    use super::super::Quality;
     use super::super::profile::Profile;
-    use super::super::{AirParameters, Quality};
     use super::*;
+    use crate::air::Atmosphere;
 
     /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
     ///
@@ -237,7 +238,7 @@ mod tests {
     /// the radiance below is a field that depends on height and direction, solved as for the Sun.
     #[test]
     fn a_uniform_sky_stays_uniform() {
-        let air = AirParameters { ozone_du: 0.0, ground_albedo: 1.0, ..AirParameters::molecular() };
+        let air = Atmosphere { ozone_du: 0.0, ground_albedo: 1.0, ..Atmosphere::molecular() };
         let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
         let optics = Optics::new(&air, &[400.0, 500.0]);
         // Coarse: every node is solved here for the same sky as often as there are sources.
