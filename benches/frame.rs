@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant as Clock;
 
 use nocturne::air::Atmosphere;
-use nocturne::air::scattering::{AirParameters, Quality, SKY_NODES_NM, ScatteringTables};
+use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
 use nocturne::catalog::{Catalogs, MoonMap};
 use nocturne::eye::Eye;
@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// What is computed before a frame, or after it, whatever the frame shows.
 fn computations() {
     println!("Computations, ms");
-    let air = AirParameters::default();
+    let air = Atmosphere::default();
     let solve =
         || ScatteringTables::solve(&air, &SKY_NODES_NM, Quality::RENDER).expect("the default air");
     println!("  ScatteringTables::solve {:10.1}", median_ms(SLOW, solve));
