@@ -377,7 +377,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(6))]
+    #![proptest_config(cases(3))]
 
     #[test]
     fn plans_of_the_lit_air_hold_no_nonsense(
