@@ -60,6 +60,9 @@ impl KindArg {
 }
 
 pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
+    if args.magnitude_limit.is_some_and(f64::is_nan) {
+        return Err(CliError::Usage("--magnitude-limit is no number; give a magnitude".to_owned()));
+    }
     let place = args
         .location
         .find(catalogs)?
@@ -67,15 +70,23 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
     let instant = stage::instant(&args.at, &place)?;
     let night = stage::night(&instant, &place, TOLERANCE, &Atmosphere::default(), catalogs)?;
     let query = args.query.to_lowercase();
+    let is_called = |object: &LitObject| {
+        let names = [night.label(object), number(object, &night), designation(object, &night)];
+        names.iter().any(|name| name.to_lowercase().contains(&query))
+    };
+    if !night.objects.iter().any(is_called) {
+        return Err(CliError::Usage(format!(
+            "nothing called '{}'; `nocturne objects` without a name lists all",
+            args.query
+        )));
+    }
     writeln!(
         out,
         "{:<26} {:<8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>4}",
         "name", "number", "V", "B-V", "azimuth", "altitude", "seen at", "wind"
     )?;
     for object in &night.objects {
-        let number = number(object, &night);
-        let names = [night.label(object), number.clone(), designation(object, &night)];
-        let wanted = names.iter().any(|name| name.to_lowercase().contains(&query))
+        let wanted = is_called(object)
             && args.kind.is_none_or(|kind| kind.is(object))
             && args.magnitude_limit.is_none_or(|limit| object.magnitude.0 <= limit)
             && (!args.up || object.apparent.altitude() >= Angle::ZERO);
@@ -89,8 +100,8 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         writeln!(
             out,
             "{:<26} {:<8} {:>6.2} {:>6} {:>9.4} {:>+9.4} {:>+9.4} {:>4}",
-            names[0],
-            number,
+            night.label(object),
+            number(object, &night),
             object.magnitude.0,
             b_v,
             object.dir.azimuth().deg(),
