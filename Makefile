@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from looking for a window system that a picture does not need.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens pack clean
+.PHONY: sky test lint goldens picture pack clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 32 --fov 100 \
@@ -31,6 +31,10 @@ lint:
 # Draws the golden pictures again; look at them before they are committed.
 goldens: driver
 	NOCTURNE_GOLDENS=write cargo test --release --test golden
+
+# Draws the picture that the README opens with.
+picture: driver
+	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 
 # Packs the catalogues again from the raw tables.
 pack:

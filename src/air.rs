@@ -28,15 +28,15 @@ pub const AIR_TOP_KM: f64 = 120.0;
 #[serde(default, deny_unknown_fields)]
 pub struct Atmosphere {
     /// Aerosol optical depth of the whole column above sea level at 550 nm: 0.02 on a mountain
-    /// night, 0.1 on a clear one, 0.5 in haze. 0 to 5.
+    /// night, 0.1 on a clear one, 0.5 in haze. 0 to 3.
     pub aerosol_optical_depth_550: f64,
     /// Exponent `a` of Angstrom's law, optical depth as `(l / 550 nm)^-a`; -1 to 4.
     pub angstrom_exponent: f64,
-    /// Height over which the aerosol falls by a factor e, kilometres; 0.3 to 10.
+    /// Height over which the aerosol falls by a factor e, kilometres; 0.5 to 10.
     pub aerosol_scale_height_km: f64,
     /// Fraction of the light removed by aerosol that is scattered, not absorbed; 0 to 1.
     pub aerosol_single_scattering_albedo: f64,
-    /// Asymmetry `g` of the Henyey-Greenstein phase function of the aerosol; -1 to 1, ends excluded.
+    /// Asymmetry `g` of the Henyey-Greenstein phase function of the aerosol; -0.9 to 0.9.
     pub aerosol_asymmetry: f64,
     /// Ozone in the whole column, Dobson units; 0 to 1000.
     pub ozone_du: f64,
@@ -73,15 +73,20 @@ pub enum AirError {
 }
 
 impl Atmosphere {
+    /// Air without aerosol, otherwise as by default.
+    pub fn molecular() -> Self {
+        Atmosphere { aerosol_optical_depth_550: 0.0, ..Atmosphere::default() }
+    }
+
     /// Says which number, if any, lies outside what the formulas hold for.
     pub fn validate(&self) -> Result<(), AirError> {
-        // A hair inside the poles of the Henyey-Greenstein function.
-        const MOST_ASYMMETRIC: f64 = 0.999;
+        // The harmonics of the scattering solver do not follow sharper peaks.
+        const MOST_ASYMMETRIC: f64 = 0.9;
         let pressure = self.pressure_mbar.unwrap_or(standard::SEA_LEVEL_PRESSURE_MBAR);
         let checks = [
-            ("aerosol_optical_depth_550", self.aerosol_optical_depth_550, 0.0, 5.0),
+            ("aerosol_optical_depth_550", self.aerosol_optical_depth_550, 0.0, 3.0),
             ("angstrom_exponent", self.angstrom_exponent, -1.0, 4.0),
-            ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.3, 10.0),
+            ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.5, 10.0),
             ("aerosol_single_scattering_albedo", self.aerosol_single_scattering_albedo, 0.0, 1.0),
             ("aerosol_asymmetry", self.aerosol_asymmetry, -MOST_ASYMMETRIC, MOST_ASYMMETRIC),
             ("ozone_du", self.ozone_du, 0.0, 1000.0),

@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn the_ellipsoid_has_its_axes() {
         let pole = Place::new(90.0, 0.0, 0.0).unwrap().itrs().distance_km();
-        assert!((pole - 6356.752_314_245).abs() < 1e-6);
+        assert!((pole - 6_356.752_314_245).abs() < 1e-6);
         let equator = Place::new(0.0, 90.0, 1000.0).unwrap().itrs().distance_km();
         assert!((equator - 6379.137).abs() < 1e-9);
     }

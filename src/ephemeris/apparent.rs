@@ -7,7 +7,7 @@
 //!
 //! *Omitted.* The Sun's potential in the aberration and the delay of light by gravity (below
 //! 0.000001"), deflection by Jupiter (0.016" at its limb), the motion of the Sun about the
-//! barycentre (0.011" of aberration, see [`super::position::earth`]), polar motion (0.6" at most),
+//! barycentre (0.011" of aberration, see [`crate::ephemeris::earth`]), polar motion (0.6" at most),
 //! air.
 
 use glam::DVec3;

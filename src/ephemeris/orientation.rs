@@ -9,7 +9,7 @@
 //! eq. 5.43), which IAU 2000B drops: without them the node is 7.5 degrees off at -4000. Sidereal
 //! time does not use the polynomial of IAU 2006, which was fitted to a few centuries and leaves the
 //! equinox of the long-term precession; it follows the equinox itself, by its definition
-//! ([`precession::equinox_travel`]).
+//! (`precession::equinox_travel`).
 //!
 //! *Accuracy.* True pole and equinox within 0.006" of IAU 2006/2000A in 1800-2200, nutation within
 //! 0.005" of IAU 2000A from -4000 to +4000. The precession is good to a few arcseconds in historical
@@ -145,8 +145,8 @@ mod tests {
     /// pole in ICRS axes.
     #[test]
     fn orientation_agrees_with_iau_2006_and_2000a() {
-        #[allow(clippy::type_complexity, reason = "one row, six columns")]
-        let truth: [(f64, f64, f64, f64, [f64; 3], [f64; 3]); 8] = [
+        type Axis = [f64; 3];
+        let truth: [(f64, f64, f64, f64, Axis, Axis); 8] = [
             (
                 2378496.5,
                 -8.527613,

@@ -101,3 +101,58 @@ impl StarReduction {
         stars.iter().map(|star| self.horizon(star)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Magnitude;
+
+    fn star(proper_motion_ra_arcsec_yr: f64, parallax_arcsec: f64, velocity_km_s: f64) -> Star {
+        Star {
+            hr: 0,
+            hip: None,
+            designation: None,
+            name: None,
+            dir_j2000: Dir::from_spherical(Angle::from_deg(40.0), Angle::ZERO),
+            proper_motion_ra_arcsec_yr,
+            proper_motion_dec_arcsec_yr: 0.0,
+            parallax_arcsec,
+            radial_velocity_km_s: velocity_km_s,
+            magnitude: Magnitude(0.0),
+            b_v: 0.0,
+            spectral_type: String::new(),
+        }
+    }
+
+    fn after_years(star: &Star, years: f64) -> Dir<Icrs> {
+        direction(star, JulianDate::from_jd(2_451_545.0 + years * JULIAN_YEAR_DAYS))
+    }
+
+    #[test]
+    fn a_star_moves_in_a_straight_line() {
+        // Across the line of sight: tan of the angle grows with time, towards east.
+        let moved = after_years(&star(10.0, 0.0, 0.0), -6000.0);
+        let angle = Angle::from_deg(40.0) - moved.longitude();
+        assert!((angle.tan() - Angle::from_arcsec(60_000.0).rad()).abs() < 1e-12);
+        // 100 km/s are 1.0227e-4 parsecs a year: of 10 parsecs a hundredth in a millennium, and what
+        // moves across gains by as much.
+        let moved = after_years(&star(1.0, 0.1, -100.0), 1000.0);
+        let gain =
+            Angle::from_arcsec(1000.0).rad() / (moved.longitude() - Angle::from_deg(40.0)).tan();
+        assert!((gain - (1.0 - 0.010_227)).abs() < 1e-6, "{gain}");
+    }
+
+    #[test]
+    fn what_cannot_be_measured_is_not_believed() {
+        let still = star(0.0, 0.0, 0.0).dir_j2000;
+        for nonsense in [
+            star(f64::NAN, f64::NAN, f64::NAN),
+            star(0.0, -0.05, 300.0),
+            star(0.0, 0.1, 1e9),
+            star(f64::INFINITY, 0.1, f64::INFINITY),
+        ] {
+            assert!(after_years(&nonsense, -6000.0).separation(still).arcsec() < 1e-9);
+        }
+        assert_eq!(parallax(&star(0.0, 12.0, 0.0)).arcsec(), PARALLAX_MAX_ARCSEC);
+    }
+}

@@ -48,7 +48,7 @@ pub fn write(
     }
     let size = (frame.width_px() as usize, frame.height_px() as usize);
     let layer =
-        Layer::new(size, about, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.collect()));
+        Layer::new(size, about, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.collect()));
     let image = ExrImage::from_layer(layer);
     file.write(|writer| {
         // The format wants to seek, which it does less in memory than on a disk.

@@ -2,8 +2,7 @@
 
 use crate::air::Atmosphere;
 use crate::air::scattering::{
-    AirParameters, Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
-    reconstruction_matrix,
+    Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView, reconstruction_matrix,
 };
 use crate::light::diffuse::NightSky;
 use crate::light::night::Night;
@@ -54,18 +53,9 @@ pub struct SolvedAir {
 
 impl SolvedAir {
     pub fn solve(air: &Atmosphere) -> Result<SolvedAir, ScatteringError> {
-        let parameters = AirParameters {
-            ozone_du: air.ozone_du,
-            aerosol_optical_depth_550: air.aerosol_optical_depth_550,
-            angstrom_exponent: air.angstrom_exponent,
-            aerosol_scale_height_km: air.aerosol_scale_height_km,
-            aerosol_single_scattering_albedo: air.aerosol_single_scattering_albedo,
-            aerosol_asymmetry: air.aerosol_asymmetry,
-            ground_albedo: air.ground_albedo,
-        };
         let wavelengths: Vec<f64> = (0..LEN).map(wavelength_nm).collect();
         Ok(SolvedAir {
-            tables: ScatteringTables::solve(&parameters, &SKY_NODES_NM, Quality::RENDER)?,
+            tables: ScatteringTables::solve(air, &SKY_NODES_NM, Quality::RENDER)?,
             spectrum_from_nodes: reconstruction_matrix(&SKY_NODES_NM, &wavelengths),
         })
     }

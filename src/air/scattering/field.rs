@@ -15,18 +15,22 @@ use super::rays::{Bracket, Ray, Step};
 
 /// Below this, a moment counts as dark: far under starlight, and safe in single precision.
 const DARK: f32 = 1e-34;
+/// Cosine of 109 degrees, just past the end of astronomical twilight. Nodes beyond help those before,
+/// but nobody waits for them to converge.
+const DEEPEST: f64 = -0.3256;
 /// `Y_00`.
 const Y00: f32 = 0.282_094_8;
 
 /// Zenith distances of the source at which the field is known, degrees, descending.
 fn source_zenith_distances_deg() -> Vec<f64> {
     let steps = |from: f64, by: f64, n: usize| (0..n).map(move |i| from + by * i as f64);
-    let mut z: Vec<f64> = steps(0.0, 12.0, 6)
-        .chain(steps(65.0, 5.0, 4))
-        .chain(steps(82.0, 2.0, 3))
-        .chain(steps(87.0, 1.0, 16))
-        .chain(steps(103.5, 1.5, 11))
-        .collect();
+    let mut z: Vec<f64> =
+        [0.0, 15.0, 30.0, 42.0, 52.0, 60.0, 66.0, 71.0, 75.0, 78.0, 80.0].to_vec();
+    z.extend(steps(82.0, 1.0, 6));
+    // Twilight, where the shadow of the Earth climbs through the air.
+    z.extend(steps(88.0, 0.5, 16));
+    z.extend(steps(96.0, 1.0, 7));
+    z.extend(steps(103.5, 1.5, 11));
     z.reverse();
     z
 }
@@ -41,7 +45,7 @@ pub(crate) struct SourceGrid {
 }
 
 /// Narrower than the narrowest interval of the grid.
-const BINS: usize = 256;
+const BINS: usize = 512;
 
 impl SourceGrid {
     pub fn new() -> SourceGrid {
@@ -72,12 +76,12 @@ impl SourceGrid {
     }
 }
 
-/// `120 (0.12 t + 0.88 t^2.2)` km for equal steps of `t`.
+/// `120 (0.04 t + 0.96 t^2.6)` km for equal steps of `t`: half of the nodes below 20 km.
 pub(crate) fn altitude_grid_km(count: usize) -> Vec<f64> {
     (0..count)
         .map(|i| {
             let t = i as f64 / (count - 1) as f64;
-            TOP_KM * (0.12 * t + 0.88 * t.powf(2.2))
+            TOP_KM * (0.04 * t + 0.96 * t.powf(2.6))
         })
         .collect()
 }
@@ -85,6 +89,7 @@ pub(crate) fn altitude_grid_km(count: usize) -> Vec<f64> {
 /// The field for one band of wavelengths.
 #[derive(Debug, Clone)]
 pub(crate) struct Field {
+    /// Highest degree `l` kept.
     pub degree: usize,
     pub altitudes_km: Vec<f64>,
     pub sources: SourceGrid,
@@ -122,13 +127,16 @@ impl Field {
 
     /// Takes moments `[altitude][source][coefficient]` and irradiances of the ground `[source]`.
     ///
-    /// Returns the greatest change of `ln M_00` where the field is not dark.
+    /// Returns the greatest change of `ln M_00` under sources down to [`DEEPEST`].
     pub fn set(&mut self, moments: &[Lanes], ground: &[Lanes]) -> f32 {
         let mut change = 0.0f32;
         let stride = self.stride();
-        for (old, new) in self.moments.chunks_exact_mut(stride).zip(moments.chunks_exact(stride)) {
+        let nodes = self.moments.chunks_exact_mut(stride).zip(moments.chunks_exact(stride));
+        for ((old, new), cosine) in nodes.zip(self.sources.cosines.iter().cycle()) {
             let ln = new[0].ln_above(DARK);
-            change = (ln - old[0]).0.iter().fold(change, |c, d| c.max(d.abs()));
+            if *cosine > DEEPEST {
+                change = (ln - old[0]).0.iter().fold(change, |c, d| c.max(d.abs()));
+            }
             old[0] = ln;
             for (old, new) in old[1..].iter_mut().zip(&new[1..]) {
                 for i in 0..new.0.len() {
@@ -198,22 +206,25 @@ impl Field {
             let c = azimuthal_part(self.degree, x, sin2 as f32);
             let mut sum = (step.molecules + step.aerosol) * Y00;
             for l in 1..=self.degree {
-                let mut part = Lanes::ZERO;
-                for m in 0..=l {
+                let (mut below, mut above) = (Lanes::ZERO, Lanes::ZERO);
+                for (m, c) in c[..=l].iter().enumerate() {
                     let k = index(l, m);
-                    part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                    let y = step.zonal[k] * c;
+                    below += low[k] * y;
+                    above += high[k] * y;
                 }
                 let [molecules, aerosol] = optics.moments[l];
-                sum += (step.molecules * molecules + step.aerosol * aerosol) * part;
+                sum += (step.molecules * molecules + step.aerosol * aerosol)
+                    * below.lerp(above, at.weight);
             }
             // A cut-off series can dip below zero where little light comes from.
             (sum * m00).map(|v| v.max(0.0))
         } else {
             let c = [1.0, x, 2.0 * x * x - sin2 as f32];
             let mut part = Lanes::ZERO;
-            for m in 0..=2 {
+            for (m, c) in c.iter().enumerate() {
                 let k = index(2, m);
-                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c[m]);
+                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
             }
             step.molecules * (part * optics.moments[2][0] + Lanes::splat(Y00)) * m00
         }
@@ -240,7 +251,7 @@ mod tests {
     #[test]
     fn the_quick_bracket_is_the_slow_one() {
         let grid = SourceGrid::new();
-        assert_eq!(grid.len(), 40);
+        assert_eq!(grid.len(), 51);
         assert!(grid.cosines.windows(2).all(|w| w[1] - w[0] > 2.0 / BINS as f64));
         for i in 0..=4000 {
             let cosine = -1.0 + f64::from(i) / 2000.0;

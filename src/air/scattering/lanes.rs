@@ -3,7 +3,7 @@
 //! Plain arrays and loops that a compiler turns into vector instructions; no fused multiply-add,
 //! which is a library call on machines without it.
 
-use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// How many wavelengths travel together.
 pub(crate) const LANES: usize = 8;
@@ -116,13 +116,6 @@ impl AddAssign for Lanes {
         *self = *self + o;
     }
 }
-impl MulAssign<f32> for Lanes {
-    #[inline(always)]
-    fn mul_assign(&mut self, s: f32) {
-        *self = *self * s;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,10 +8,10 @@
 //! each kilometre up to 30 km, normalised to its column. Between nodes, all are linear: the
 //! reference this is measured against has exactly these layers.
 
-use super::AirParameters;
+use super::harmonics::MAX_DEGREE;
 use super::lanes::{LANES, Lanes};
 use super::phase;
-use crate::air::scattering::harmonics::MAX_DEGREE;
+use crate::air::Atmosphere;
 
 /// Radius of the spherical Earth, kilometres (IUGG mean radius).
 pub const EARTH_RADIUS_KM: f64 = 6371.0;
@@ -208,24 +208,17 @@ pub(crate) struct Optics {
 
 impl Optics {
     /// For up to [`LANES`] wavelengths; the last is repeated to fill the lanes.
-    pub fn new(air: &AirParameters, wavelengths_nm: &[f64]) -> Optics {
-        let lane = |i: usize| wavelengths_nm[i.min(wavelengths_nm.len() - 1)];
+    pub fn new(air: &Atmosphere, wavelengths_nm: &[f64]) -> Optics {
+        let nm: [f64; LANES] =
+            std::array::from_fn(|i| wavelengths_nm[i.min(wavelengths_nm.len() - 1)]);
         let ozone_peak_m3 =
             air.ozone_du * DOBSON_UNIT_PER_M2 / (0.5e3 * (OZONE_TENT_KM[2] - OZONE_TENT_KM[0]));
-        let mut extinction = [[0.0; LANES]; SPECIES];
-        for i in 0..LANES {
-            let nm = lane(i);
-            // Per metre to per kilometre.
-            extinction[MOLECULES][i] = 1e3 * rayleigh_cross_section_m2(nm) * MOLECULE_DENSITY[0].1;
-            extinction[OZONE][i] = 1e3 * ozone_cross_section_m2(nm) * ozone_peak_m3;
-            extinction[AEROSOL][i] =
-                air.aerosol_optical_depth_550 * (nm / 550.0).powf(-air.angstrom_exponent);
-        }
-        Optics::from_extinction(air, extinction)
-    }
-
-    /// With extinction coefficients of one's own.
-    pub fn from_extinction(air: &AirParameters, extinction: [[f64; LANES]; SPECIES]) -> Optics {
+        // Per metre to per kilometre.
+        let molecules = nm.map(|nm| 1e3 * rayleigh_cross_section_m2(nm) * MOLECULE_DENSITY[0].1);
+        let ozone = nm.map(|nm| 1e3 * ozone_cross_section_m2(nm) * ozone_peak_m3);
+        let aerosol =
+            nm.map(|nm| air.aerosol_optical_depth_550 * (nm / 550.0).powf(-air.angstrom_exponent));
+        let extinction = [molecules, ozone, aerosol];
         let g = air.aerosol_asymmetry;
         Optics {
             extinction,
@@ -266,7 +259,7 @@ mod tests {
     use super::*;
 
     /// Optical depth of a vertical column of one species.
-    fn vertical_depth(air: &AirParameters, wavelength_nm: f64, species: usize) -> f64 {
+    fn vertical_depth(air: &Atmosphere, wavelength_nm: f64, species: usize) -> f64 {
         let profile = Profile::new(air.aerosol_scale_height_km);
         let optics = Optics::new(air, &[wavelength_nm]);
         let (h, d) = (profile.heights_km(), profile.densities());
@@ -278,7 +271,7 @@ mod tests {
 
     #[test]
     fn vertical_optical_depths_are_those_of_the_reference_air() {
-        let air = AirParameters::default();
+        let air = Atmosphere::default();
         // Sums over the layers of the reference atmosphere.
         for (nm, molecules, ozone, aerosol) in [
             (400.0, 0.360_814, 0.000_123_1, 0.151_284),

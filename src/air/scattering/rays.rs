@@ -228,12 +228,12 @@ fn cuts(rule: &RaySteps, has_aerosol: bool, start: f64, p2: f64, r_km: f64) -> (
 
 #[cfg(test)]
 mod tests {
-    use super::super::AirParameters;
     use super::*;
+    use crate::air::Atmosphere;
 
     const RULE: RaySteps = RaySteps { levels: 30, longest_km: 40.0, longest_in_aerosol_km: 5.0 };
 
-    fn with_medium(air: &AirParameters, test: impl Fn(&Medium)) {
+    fn with_medium(air: &Atmosphere, test: impl Fn(&Medium)) {
         let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
         let optics = Optics::new(air, &[450.0, 550.0]);
         let altitudes_km = [0.0, 10.0, 50.0, TOP_KM];
@@ -247,10 +247,10 @@ mod tests {
 
     #[test]
     fn what_is_not_transmitted_is_scattered_where_nothing_absorbs() {
-        let air = AirParameters {
+        let air = Atmosphere {
             ozone_du: 0.0,
             aerosol_single_scattering_albedo: 1.0,
-            ..AirParameters::default()
+            ..Atmosphere::default()
         };
         with_medium(&air, |medium| {
             for (height, mu) in [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn transmittance_is_that_of_the_columns() {
-        with_medium(&AirParameters::default(), |medium| {
+        with_medium(&Atmosphere::default(), |medium| {
             for (height, mu) in [(0.0, 0.3), (2.0, 0.0), (40.0, -0.08)] {
                 let ray = Ray::cut(medium, &RULE, height, mu);
                 let columns = columns::to_space(&medium.geometry.profile, height, mu).unwrap();
@@ -283,7 +283,7 @@ mod tests {
 
     #[test]
     fn rays_meet_the_ground_where_they_should() {
-        with_medium(&AirParameters::default(), |medium| {
+        with_medium(&Atmosphere::default(), |medium| {
             let down = Ray::cut(medium, &RULE, 10.0, -1.0);
             assert!((down.ground_km.unwrap() - 10.0).abs() < 1e-9);
             let at_once = Ray::cut(medium, &RULE, 0.0, -0.3);

@@ -10,7 +10,9 @@ use rayon::prelude::*;
 
 use super::Resolution;
 use super::field::Field;
-use super::harmonics::{azimuthal_part, coefficient_count, gauss_legendre, index, zonal_part};
+use super::harmonics::{
+    MAX_COEFFICIENTS, MAX_DEGREE, azimuthal_part, gauss_legendre, index, zonal_part,
+};
 use super::lanes::Lanes;
 use super::profile::Optics;
 use super::rays::{Geometry, Medium, Ray, RaySteps};
@@ -33,13 +35,35 @@ pub struct Directions {
 
 /// A ray from a node, and its share of the sphere.
 struct Spoke {
-    altitude: usize,
     ray: Ray,
     /// Solid angle over `2 pi`.
     weight: f64,
 }
 
-/// All rays from all nodes of a field: what moments are taken over.
+/// Harmonics in the directions of one spoke: what takes its radiances to moments.
+struct Basis {
+    degree: usize,
+    order: usize,
+    zonal: [f32; MAX_COEFFICIENTS],
+    azimuthal: Vec<[f32; MAX_DEGREE + 1]>,
+}
+
+impl Basis {
+    /// Adds the share of radiances, one per azimuth, to the moments of a node.
+    fn project(&self, radiances: &[Lanes], node: &mut [Lanes]) {
+        for m in 0..=self.order {
+            let mut sum = Lanes::ZERO;
+            for (c, &radiance) in self.azimuthal.iter().zip(radiances) {
+                sum += radiance * c[m];
+            }
+            for l in m..=self.degree {
+                node[index(l, m)] += sum * self.zonal[index(l, m)];
+            }
+        }
+    }
+}
+
+/// All rays from all nodes of a field, node by node from the ground up: what moments are taken over.
 struct Sweep {
     spokes: Vec<Spoke>,
     /// Cosines of the azimuths.
@@ -55,22 +79,21 @@ struct Moments {
 impl Sweep {
     fn new(medium: &Medium, directions: &Directions) -> Sweep {
         let mut starts = Vec::new();
-        for (altitude, &height_km) in medium.altitudes_km.iter().enumerate() {
+        for &height_km in medium.altitudes_km {
             // Dense next to the horizon, on both sides of it.
             let horizon = cos_horizon(height_km);
             for (t, w) in gauss_legendre(directions.above) {
                 let span = 1.0 - horizon;
-                starts.push((altitude, height_km, horizon + span * t * t, span * 2.0 * t * w));
+                starts.push((height_km, horizon + span * t * t, span * 2.0 * t * w));
             }
             for (t, w) in gauss_legendre(directions.below) {
                 let span = 1.0 + horizon;
-                starts.push((altitude, height_km, horizon - span * t * t, span * 2.0 * t * w));
+                starts.push((height_km, horizon - span * t * t, span * 2.0 * t * w));
             }
         }
         let spokes = starts
             .into_par_iter()
-            .map(|(altitude, height_km, cos_zenith, weight)| Spoke {
-                altitude,
+            .map(|(height_km, cos_zenith, weight)| Spoke {
                 ray: Ray::cut(medium, &directions.steps, height_km, cos_zenith),
                 weight,
             })
@@ -106,38 +129,52 @@ impl Sweep {
             .collect();
 
         let n_az = self.azimuths.len();
-        let (degree, stride) = (field.degree, coefficient_count(field.degree));
+        let stride = field.stride();
         let mut moments = vec![Lanes::ZERO; field.altitudes_km.len() * cosines.len() * stride];
-        let mut ground = vec![Lanes::ZERO; cosines.len()];
-        for (spoke, seen) in self.spokes.iter().zip(&seen) {
-            let mu = spoke.ray.cos_zenith;
-            let sin2 = 1.0 - mu * mu;
-            let zonal = zonal_part(degree, mu);
-            let solid_angle = (spoke.weight * 2.0 * PI / n_az as f64) as f32;
-            let azimuthal: Vec<_> = self
-                .azimuths
-                .iter()
-                .map(|&a| azimuthal_part(degree, (sin2.sqrt() * a) as f32, sin2 as f32))
-                .collect();
-            let node = &mut moments[spoke.altitude * cosines.len() * stride..];
-            for (s, seen) in seen.chunks_exact(n_az).enumerate() {
-                let node = &mut node[s * stride..][..stride];
-                let mut sum = Lanes::ZERO;
-                for (c, &seen) in azimuthal.iter().zip(seen) {
-                    sum += seen;
-                    for l in 0..=degree {
-                        for m in 0..=l {
-                            let k = index(l, m);
-                            node[k] += seen * (zonal[k] * c[m] * solid_angle);
-                        }
+        let per_altitude = self.spokes.len() / field.altitudes_km.len();
+        moments
+            .par_chunks_exact_mut(cosines.len() * stride)
+            .zip(
+                self.spokes.par_chunks_exact(per_altitude).zip(seen.par_chunks_exact(per_altitude)),
+            )
+            .for_each(|(nodes, (spokes, seen))| {
+                for (spoke, seen) in spokes.iter().zip(seen) {
+                    let basis = self.basis(spoke, field.degree);
+                    for (node, seen) in nodes.chunks_exact_mut(stride).zip(seen.chunks_exact(n_az))
+                    {
+                        basis.project(seen, node);
                     }
                 }
-                if spoke.altitude == 0 && mu > 0.0 {
-                    ground[s] += sum * (mu as f32 * solid_angle);
-                }
+            });
+
+        let mut ground = vec![Lanes::ZERO; cosines.len()];
+        for (spoke, seen) in self.spokes.iter().zip(&seen).take(per_altitude) {
+            let flux =
+                (spoke.ray.cos_zenith.max(0.0) * spoke.weight * 2.0 * PI / n_az as f64) as f32;
+            for (ground, seen) in ground.iter_mut().zip(seen.chunks_exact(n_az)) {
+                *ground += seen.iter().fold(Lanes::ZERO, |sum, &l| sum + l) * flux;
             }
         }
         Moments { moments, ground }
+    }
+
+    /// The harmonics in the directions of a spoke, times their solid angle.
+    fn basis(&self, spoke: &Spoke, degree: usize) -> Basis {
+        let mu = spoke.ray.cos_zenith;
+        let sin2 = 1.0 - mu * mu;
+        let solid_angle = (spoke.weight * 2.0 * PI / self.azimuths.len() as f64) as f32;
+        // Orders from the number of azimuths on look like lower ones at their midpoints.
+        let order = degree.min(self.azimuths.len() - 1);
+        Basis {
+            degree,
+            order,
+            zonal: zonal_part(degree, mu).map(|y| y * solid_angle),
+            azimuthal: self
+                .azimuths
+                .iter()
+                .map(|&a| azimuthal_part(order, (sin2.sqrt() * a) as f32, sin2 as f32))
+                .collect(),
+        }
     }
 
     /// `K`: moments of what the field sends along all rays.
@@ -186,4 +223,63 @@ fn iterate(
         }
     }
     field
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Quality;
+    use super::super::profile::Profile;
+    use super::*;
+    use crate::air::Atmosphere;
+
+    /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
+    ///
+    /// The light that comes straight from the sky fills in what scattering takes from it: much of
+    /// the radiance below is a field that depends on height and direction, solved as for the Sun.
+    #[test]
+    fn a_uniform_sky_stays_uniform() {
+        let air = Atmosphere { ozone_du: 0.0, ground_albedo: 1.0, ..Atmosphere::molecular() };
+        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
+        let optics = Optics::new(&air, &[400.0, 500.0]);
+        // Coarse: every node is solved here for the same sky as often as there are sources.
+        let preview = Quality::PREVIEW.molecular;
+        let directions = Directions { azimuths: 3, ..preview.higher_orders };
+        let resolution = Resolution { altitudes: 12, higher_orders: directions, ..preview };
+        let mut direct = Field::new(resolution.degree, resolution.altitudes);
+        let altitudes_km = direct.altitudes_km.clone();
+        let medium =
+            Medium { geometry: &geometry, optics: &optics, altitudes_km: &altitudes_km, degree: 2 };
+        let from_space = |ray: &Ray| match ray.ground_km {
+            Some(_) => Lanes::ZERO,
+            None => ray.transmittance,
+        };
+        let unscattered = Sweep::new(&medium, &resolution.higher_orders)
+            .moments(&direct, |ray, _, out| out.fill(from_space(ray)));
+        direct.set(&unscattered.moments, &unscattered.ground);
+        let sweep = Sweep::new(&medium, &resolution.higher_orders);
+        let first = sweep.gather(&medium, &direct);
+        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-3);
+
+        let mut row = vec![Lanes::ZERO; field.row_len()];
+        for (height_km, cos_view) in [
+            (0.0, 1.0),
+            (0.0, 0.3),
+            (0.0, 0.02),
+            (3.0, 0.1),
+            (3.0, -0.5),
+            (20.0, -0.05),
+            (20.0, -0.9),
+        ] {
+            let ray = Ray::cut(&medium, &resolution.view, height_km, cos_view);
+            let source = Source::new(0.3, cos_view, 0.2);
+            let mut radiance = [from_space(&ray)];
+            for part in [&direct, &field] {
+                add_higher_orders(&medium, part, &ray, &[source], &mut row, &mut radiance);
+            }
+            for lane in [0, 1] {
+                let radiance = radiance[0].0[lane];
+                assert!((radiance - 1.0).abs() < 5e-3, "{height_km} km, {cos_view}: {radiance}");
+            }
+        }
+    }
 }

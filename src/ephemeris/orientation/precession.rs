@@ -159,4 +159,41 @@ mod tests {
             }
         }
     }
+
+    /// Equinox and poles of equator and ecliptic in ICRS axes: ERFA 2.0.1, `ltpb` and `ltecm`.
+    #[test]
+    fn axes_agree_with_erfa_over_millennia() {
+        type Axis = [f64; 3];
+        let truth: [(f64, Axis, Axis, Axis); 3] = [
+            (
+                -3000.0,
+                [0.356410564486, 0.853057573862, 0.381135520780],
+                [-0.379008094749, -0.240853751432, 0.893500047306],
+                [0.001431636191, -0.408422256696, 0.912791986519],
+            ),
+            (
+                1200.0,
+                [0.981105707286, 0.177326283431, 0.077375579714],
+                [-0.077374062882, -0.006934209067, 0.996978019385],
+                [-0.000102254324, -0.399455409141, 0.916752619659],
+            ),
+            (
+                3500.0,
+                [0.933441711222, -0.329412985371, -0.142033998821],
+                [0.142054408082, -0.024140772172, 0.989564433609],
+                [0.000513094439, -0.394710235649, 0.918805510763],
+            ),
+        ];
+        for (year, equinox, equator, ecliptic) in truth {
+            let tt = JulianDate::from_jd(2_451_545.0 + (year - 2000.0) * 365.25);
+            let icrs_from_mean = mean_from_icrs(tt).matrix().transpose();
+            let icrs_from_ecliptic = ecliptic_from_icrs(tt).matrix().transpose();
+            assert!(icrs_from_mean.x_axis.abs_diff_eq(DVec3::from(equinox), 1e-11));
+            assert!(icrs_from_mean.z_axis.abs_diff_eq(DVec3::from(equator), 1e-11));
+            assert!(icrs_from_ecliptic.z_axis.abs_diff_eq(DVec3::from(ecliptic), 1e-11));
+            // The way over the mean equator leads to the same ecliptic.
+            let over_equator = ecliptic_from_mean(tt) * mean_from_icrs(tt);
+            assert!(over_equator.matrix().abs_diff_eq(ecliptic_from_icrs(tt).matrix(), 1e-14));
+        }
+    }
 }

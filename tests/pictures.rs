@@ -1,0 +1,242 @@
+//! Whole pictures by measured light: the flux of stars, and where they fall. Without an adapter
+//! every test here is reported as ignored.
+
+#[path = "support/mod.rs"]
+mod support;
+
+use libtest_mimic::Failed;
+use nocturne::camera::Projection;
+use nocturne::export::describe::{DescribedObject, Description};
+use nocturne::image::HdrFrame;
+use nocturne::render::Renderer;
+use nocturne::scene::{Scene, Setting};
+use support::{GpuTest, check, drawn, laid};
+
+/// A moonless winter night: Orion, Sirius and Jupiter high in the south.
+const NIGHT: &str = r#"
+nocturne_scene = 1
+utc = "2026-01-18T06:00:00Z"
+[place]
+name = "Flagstaff"
+latitude_deg = 35.19807
+longitude_deg = -111.65127
+height_m = 2106.0
+[camera]
+azimuth_deg = 190.0
+altitude_deg = 42.0
+field_of_view_deg = 90.0
+projection = "stereographic"
+width_px = 640
+height_px = 360
+"#;
+
+/// Light is measured in a square of this many pixels to each side of its middle.
+const REACH: u32 = 3;
+
+/// Azimuth and apparent altitude of the belt of Orion in that night, degrees.
+const BELT: [f64; 2] = [198.2, 51.9];
+
+fn main() {
+    support::run([
+        GpuTest::new(
+            "fifty_stars_have_their_flux_at_any_size_and_field",
+            fifty_stars_have_their_flux,
+        ),
+        GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
+        GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
+        GpuTest::new("the_sky_is_that_of_its_tables", sky_is_that_of_its_tables),
+    ])
+}
+
+fn scene() -> Scene {
+    Scene::parse(NIGHT).expect("the scene of this test")
+}
+
+/// The frame without its stars and planets: what is behind them.
+fn backdrop(renderer: &Renderer, scene: &Scene) -> Result<HdrFrame, Failed> {
+    let mut scene = scene.clone();
+    (scene.layers.stars, scene.layers.planets) = (false, false);
+    Ok(drawn(renderer, &scene)?.0)
+}
+
+/// Light of a window above what is behind it: illuminance in lux and centroid in pixels.
+fn measured(
+    [frame, behind]: [&HdrFrame; 2],
+    setting: &Setting,
+    centre: [f64; 2],
+) -> (f64, [f64; 2]) {
+    let middle = centre.map(|c| c.floor() as u32);
+    let (mut sum, mut centroid) = (0.0, [0.0, 0.0]);
+    for y in middle[1] - REACH..=middle[1] + REACH {
+        for x in middle[0] - REACH..=middle[0] + REACH {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let above = frame.xyzv(x, y).y - behind.xyzv(x, y).y;
+            let light = above * setting.camera.pixel_solid_angle_sr(pixel);
+            sum += light;
+            centroid = [centroid[0] + light * pixel[0], centroid[1] + light * pixel[1]];
+        }
+    }
+    (sum, centroid.map(|c| c / sum))
+}
+
+/// The brightest objects in view that stand alone and not at the edge, with their pixels.
+fn lonely(picture: &Description, most: usize) -> Vec<(&DescribedObject, [f64; 2])> {
+    let camera = &picture.camera;
+    let reach = f64::from(REACH);
+    let mut seen: Vec<_> = picture
+        .objects
+        .iter()
+        .filter_map(|object| Some((object, [object.x_px?, object.y_px?])))
+        .collect();
+    seen.sort_by(|a, b| a.0.magnitude_v.total_cmp(&b.0.magnitude_v));
+    let inside = |v: f64, edge: u32| v > reach + 2.0 && v < f64::from(edge) - reach - 2.0;
+    let alone = |object: &DescribedObject, at: [f64; 2]| {
+        seen.iter().all(|(other, place)| {
+            let apart = (place[0] - at[0]).abs().max((place[1] - at[1]).abs());
+            // What is fainter than a thousandth disturbs nothing here.
+            apart > reach + 3.0
+                || other.catalogue == object.catalogue && other.name == object.name
+                || other.illuminance_ground_lx < 1e-3 * object.illuminance_ground_lx
+        })
+    };
+    let is_point = |object: &DescribedObject| matches!(object.kind, "star" | "planet");
+    seen.iter()
+        .filter(|(object, [x, y])| {
+            is_point(object)
+                && inside(*x, camera.width_px)
+                && inside(*y, camera.height_px)
+                && alone(object, [*x, *y])
+        })
+        .take(most)
+        .copied()
+        .collect()
+}
+
+fn fifty_stars_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
+    for (width_px, height_px) in [(640, 360), (3840, 2160)] {
+        for fov_deg in [20.0, 120.0] {
+            let mut scene = scene();
+            let camera = &mut scene.camera;
+            (camera.width_px, camera.height_px) = (width_px, height_px);
+            camera.field_of_view_deg = fov_deg;
+            let (frame, setting, night) = drawn(renderer, &scene)?;
+            let picture = Description::of(&setting, &night);
+            let behind = backdrop(renderer, &scene)?;
+            let mut stars = lonely(&picture, 60);
+            stars.retain(|(object, _)| object.kind == "star");
+            stars.truncate(50);
+            check(stars.len() == 50, || format!("only {} stars at {fov_deg}°", stars.len()))?;
+            for (star, at) in stars {
+                let (through_air, _) = measured([&frame, &behind], &setting, at);
+                // The air undone: what it left of the light is in the description.
+                let outside = through_air * star.illuminance_lx / star.illuminance_ground_lx;
+                let expected = 2.54e-6 * 10f64.powf(-0.4 * star.magnitude_v);
+                let error = outside / expected - 1.0;
+                check(error.abs() < 0.01, || {
+                    format!("{width_px} px, {fov_deg}°: {} is off by {error:.4}", star.name)
+                })?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn objects_stand_where_described(renderer: &Renderer) -> Result<(), Failed> {
+    for (projection, fov_deg) in [
+        (Projection::Perspective, 60.0),
+        (Projection::Stereographic, 120.0),
+        (Projection::Equidistant, 180.0),
+        (Projection::EqualArea, 180.0),
+        (Projection::Equirectangular, 360.0),
+        (Projection::Perspective, 4.0),
+    ] {
+        let mut scene = scene();
+        let camera = &mut scene.camera;
+        (camera.width_px, camera.height_px) = (1200, 800);
+        (camera.projection, camera.field_of_view_deg) = (projection, fov_deg);
+        camera.roll_deg = 7.0;
+        if fov_deg < 10.0 {
+            // Towards the belt of Orion.
+            (camera.azimuth_deg, camera.altitude_deg) = (BELT[0], BELT[1]);
+        }
+        if projection == Projection::Equirectangular {
+            (camera.altitude_deg, camera.roll_deg) = (0.0, 0.0);
+        }
+        let (frame, setting, night) = drawn(renderer, &scene)?;
+        let picture = Description::of(&setting, &night);
+        let behind = backdrop(renderer, &scene)?;
+        let objects = lonely(&picture, 40);
+        let enough = if fov_deg < 10.0 { 3 } else { 25 };
+        check(objects.len() >= enough, || format!("{projection:?}: {} objects", objects.len()))?;
+        for (object, at) in objects {
+            let (_, centroid) = measured([&frame, &behind], &setting, at);
+            let off = (centroid[0] - at[0]).hypot(centroid[1] - at[1]);
+            check(off < 0.1, || format!("{projection:?}: {} is off by {off:.3} px", object.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
+    // The Moon on a dark night, the Sun in an airless sky made by switching the skylight off.
+    for (utc, name, azimuth_deg, altitude_deg) in [
+        ("2026-08-25T05:30:00Z", "Moon", 181.0, 32.0),
+        ("2026-08-12T19:30:00Z", "Sun", 180.0, 69.0),
+    ] {
+        for (fov_deg, width_px) in [(10.0, 640), (60.0, 640), (120.0, 640), (60.0, 2400)] {
+            let mut scene = scene();
+            scene.utc = utc.to_owned();
+            scene.layers.skylight = false;
+            scene.layers.stars = false;
+            scene.layers.planets = false;
+            scene.layers.ground = false;
+            let camera = &mut scene.camera;
+            (camera.width_px, camera.height_px) = (width_px, width_px / 2);
+            camera.field_of_view_deg = fov_deg;
+            (camera.azimuth_deg, camera.altitude_deg) = (azimuth_deg, altitude_deg);
+            let (frame, setting, night) = drawn(renderer, &scene)?;
+            let picture = Description::of(&setting, &night);
+            let body = picture.objects.iter().find(|object| object.name == name);
+            let body = body.ok_or("not described")?;
+            check(body.x_px.is_some(), || format!("{name} is not in view: {body:?}"))?;
+            let mut sum = 0.0;
+            for y in 0..frame.height_px() {
+                for x in 0..frame.width_px() {
+                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                    sum += frame.xyzv(x, y).y * setting.camera.pixel_solid_angle_sr(pixel);
+                }
+            }
+            let error = sum / body.illuminance_ground_lx - 1.0;
+            check(error.abs() < 0.01, || {
+                format!("{name}, {fov_deg}° on {width_px} px: off by {error:.4}")
+            })?;
+        }
+    }
+    Ok(())
+}
+
+fn sky_is_that_of_its_tables(renderer: &Renderer) -> Result<(), Failed> {
+    // Twilight with a Moon: all three tables are at work.
+    let mut scene = scene();
+    scene.utc = "2026-08-24T02:45:00Z".to_owned();
+    (scene.camera.azimuth_deg, scene.camera.altitude_deg) = (225.0, 30.0);
+    (scene.layers.stars, scene.layers.planets, scene.layers.moon) = (false, false, false);
+    let (plan, _, setting, _) = laid(&scene)?;
+    check(plan.sky.sun.is_some() && plan.sky.moon.is_some(), || "no twilight".to_owned())?;
+    let frame = renderer.frame(&plan)?.frame;
+    let camera = &setting.camera;
+    for x in (7..camera.width_px).step_by(31) {
+        for y in (5..camera.height_px).step_by(17) {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let view = camera.view_from_pixel(pixel).ok_or("no sky there")?;
+            let dir = camera.view_from_apparent().inverse() * view;
+            if dir.altitude().deg() < 0.2 {
+                continue;
+            }
+            let (drawn, expected) = (frame.xyzv(x, y), plan.sky.luminance(dir));
+            let error = (drawn.y / expected.y - 1.0).abs().max((drawn.v / expected.v - 1.0).abs());
+            check(error < 1e-3, || format!("pixel {x}, {y} is off by {error:.5}"))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,140 @@
+//! What a plan holds and what it leaves out, and that the ledger says why. Needs no GPU.
+
+use nocturne::catalog::Catalogs;
+use nocturne::light::night::Night;
+use nocturne::plan::FramePlan;
+use nocturne::plan::lay::lay;
+use nocturne::plan::ledger::Ledger;
+use nocturne::scene::Scene;
+use nocturne::sky::SkyState;
+
+const FLAGSTAFF: &str = r#"
+nocturne_scene = 1
+utc = "2026-01-18T06:00:00Z"
+[place]
+latitude_deg = 35.19807
+longitude_deg = -111.65127
+height_m = 2106.0
+[camera]
+azimuth_deg = 180.0
+altitude_deg = 40.0
+field_of_view_deg = 120.0
+projection = "stereographic"
+width_px = 640
+height_px = 360
+"#;
+
+fn at(utc: &str) -> Scene {
+    let mut scene = Scene::parse(FLAGSTAFF).unwrap();
+    scene.utc = utc.to_owned();
+    scene
+}
+
+/// The plan, the ledger, and whether the map of the Moon was read.
+fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
+    let catalogs = Catalogs::locate(None).unwrap();
+    let setting = scene.setting().unwrap();
+    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance).unwrap();
+    let night = Night::of(sky, catalogs.stars().unwrap(), &scene.air);
+    let mut asked = false;
+    let moon_map = || {
+        asked = true;
+        catalogs.moon_map()
+    };
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, moon_map).unwrap();
+    (plan, ledger, asked)
+}
+
+fn skipped(ledger: &Ledger, layer: &str, reason: &str) -> usize {
+    let entry = ledger.of(layer).unwrap_or_else(|| panic!("no layer {layer}"));
+    entry.skipped.iter().filter(|(why, _)| why.contains(reason)).map(|(_, count)| count).sum()
+}
+
+#[test]
+fn a_moonless_night_builds_no_table_and_reads_no_map() {
+    let (plan, ledger, map_was_read) = laid(&at("2026-01-18T06:00:00Z"));
+    assert!(plan.sky.sun.is_none() && plan.sky.moon.is_none() && plan.discs.is_empty());
+    assert!(!map_was_read);
+    assert_eq!(skipped(&ledger, "sunlit air", "below the horizon"), 1);
+    assert_eq!(skipped(&ledger, "Moon", "below the horizon"), 1);
+    let stars = ledger.of("stars").unwrap();
+    let counted = stars.drawn + stars.skipped.iter().map(|(_, count)| count).sum::<usize>();
+    assert_eq!(counted, 9096);
+    assert!(stars.drawn > 1500, "{stars:?}");
+    // The dark sky has the brightness that it is said to have in the zenith.
+    let zenith = plan.sky.dark[plan.sky.dark.len() - 1].y;
+    assert!((zenith / 1.71e-4 - 1.0).abs() < 0.02, "{zenith}");
+}
+
+#[test]
+fn by_day_the_stars_go_out() {
+    let mut noon = at("2026-08-12T19:30:00Z");
+    noon.camera.altitude_deg = 60.0;
+    let (plan, ledger, _) = laid(&noon);
+    assert!(plan.sky.sun.is_some() && plan.sky.moon.is_none());
+    // Sirius alone gives a pixel a ten-thousandth of the blue behind it.
+    assert!(ledger.of("stars").unwrap().drawn <= 1);
+    assert!(skipped(&ledger, "stars", "of the sky behind it") > 1500);
+    assert_eq!(ledger.of("Sun").unwrap().drawn, 1);
+    assert_eq!(skipped(&ledger, "moonlit air", "outshines"), 1);
+}
+
+#[test]
+fn the_full_moon_takes_stars_away_and_lights_the_air() {
+    let scene = at("2026-08-28T06:00:00Z");
+    let (plan, ledger, _) = laid(&scene);
+    assert!(plan.sky.moon.is_some() && plan.sky.sun.is_none());
+    assert_eq!(ledger.of("Moon").unwrap().drawn, 1);
+    // A full Moon half-way up gives some tenths of a lux, and ground of albedo 0.1 shows it.
+    let ground = plan.sky.ground.y;
+    assert!((0.002..0.01).contains(&ground), "{ground}");
+}
+
+#[test]
+fn what_is_switched_off_is_not_there() {
+    let mut scene = at("2026-01-18T06:00:00Z");
+    scene.layers.stars = false;
+    scene.layers.planets = false;
+    scene.layers.skylight = false;
+    scene.layers.ground = false;
+    let (plan, ledger, _) = laid(&scene);
+    assert!(plan.splats.is_empty());
+    assert!(plan.sky.dark.iter().all(|light| light.y == 0.0) && plan.sky.ground.y == 0.0);
+    assert_eq!(skipped(&ledger, "stars", "switched off"), 9096);
+    scene.layers.stars = true;
+    scene.layers.magnitude_limit = Some(2.0);
+    let (plan, ledger, _) = laid(&scene);
+    assert!((10..60).contains(&plan.splats.len()), "{}", plan.splats.len());
+    assert!(skipped(&ledger, "stars", "magnitude limit") > 9000);
+}
+
+#[test]
+fn a_panorama_repeats_what_lies_on_its_seam() {
+    let mut scene = at("2026-01-18T06:00:00Z");
+    scene.camera.projection = nocturne::camera::Projection::Equirectangular;
+    scene.camera.field_of_view_deg = 360.0;
+    scene.camera.altitude_deg = 0.0;
+    let (plan, _, _) = laid(&scene);
+    let width = f64::from(plan.camera.width_px);
+    let seam: Vec<_> = plan.splats.iter().filter(|s| s.centre_px[0] < 2.0).collect();
+    assert!(!seam.is_empty());
+    for left in seam {
+        let twin = plan.splats.iter().any(|right| {
+            (right.centre_px[0] - left.centre_px[0] - width).abs() < 1e-6
+                && right.centre_px[1] == left.centre_px[1]
+        });
+        assert!(twin, "{left:?} has no twin on the right");
+    }
+}
+
+#[test]
+fn the_moon_hides_what_stands_behind_it() {
+    // Deep in the total eclipse of 2026 over Burgos nothing of the Sun is left beside the Moon.
+    let mut scene = at("2026-08-12T18:29:30Z");
+    (scene.place.latitude_deg, scene.place.longitude_deg) = (42.34106, -3.70184);
+    scene.place.height_m = 867.0;
+    (scene.camera.azimuth_deg, scene.camera.altitude_deg) = (283.0, 8.0);
+    let (plan, ledger, _) = laid(&scene);
+    let brightest = plan.splats.iter().map(|s| s.illuminance.y).fold(0.0, f64::max);
+    assert!(brightest < 1.0, "{brightest} lx is the Sun's: {ledger:?}");
+}
