@@ -116,3 +116,29 @@ pub fn read(path: &std::path::Path) -> Result<(HdrFrame, Vec<(String, String)>),
     });
     Ok((frame, texts.collect()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Image;
+
+    #[test]
+    fn the_same_frame_gives_the_same_file_and_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let frame = Image::filled(3, 2, [1e-6f32, 2.0, 3e9, 0.5]);
+        let names = ["units", "place", "jd_tt", "azimuth_deg", "altitude_deg", "roll_deg"];
+        let attributes = names.map(|name| (name, Attribute::Text(format!("of {name}"))));
+        let files = ["first.exr", "second.exr"].map(|name| {
+            let path = folder.path().join(name);
+            write(OutputFile::create(&path).unwrap(), &frame, &attributes).unwrap();
+            path
+        });
+        let [first, second] = [&files[0], &files[1]].map(|path| std::fs::read(path).unwrap());
+        assert_eq!(first, second);
+        let (back, said) = read(&files[0]).unwrap();
+        assert_eq!(back, frame);
+        for name in names {
+            assert!(said.contains(&(name.to_owned(), format!("of {name}"))), "{said:?}");
+        }
+    }
+}

@@ -14,8 +14,11 @@ const FILES: [&str; 3] = ["stars.bin", "places.csv", "moon_albedo.bin"];
 const MOON: &str = "render --at 2026-08-27T23:30-07:00 --place Flagstaff --look Moon --fov 1 \
     --size 32x32 -o old.png";
 
+/// Does harm to a file.
+type Harm = fn(&Path);
+
 /// Ways to harm a file: in the middle, so that its beginning promises well.
-const HARMS: [(&str, fn(&Path)); 4] = [
+const HARMS: [(&str, Harm); 4] = [
     ("cut", |path| {
         let bytes = fs::read(path).unwrap();
         fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
@@ -71,7 +74,7 @@ pub fn trials(machine: &Machine) -> Vec<Trial> {
 }
 
 /// Harms a file, and expects that its reader says so, whichever way the folder is named.
-fn refused(file: &str, harm: &str, do_harm: fn(&Path)) {
+fn refused(file: &str, harm: &str, do_harm: Harm) {
     let line = || match file {
         "moon_albedo.bin" => nocturne(words(MOON)),
         _ => nocturne(DARK).and(["--describe", "old.json"]),

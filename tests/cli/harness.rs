@@ -36,7 +36,7 @@ impl Machine {
             draws: nocturne(["adapter"]).run().code() == Some(0),
             has_unnamed_files: has_unnamed_files(&std::env::temp_dir()),
             mounts: nocturne([""; 0])
-                .through(&["unshare", "-rm", "mount", "-t", "tmpfs", "none", "."])
+                .through(&["unshare", "-rm", "sh", "-c", "mount -t tmpfs none ."])
                 .succeeds(),
         }
     }

@@ -61,6 +61,13 @@ pub fn trials() -> Vec<Trial> {
             let text = saved().replace("[eye]", "[eye]\nsunglasses = true");
             refused(text.as_bytes(), NONSENSE, &["line ", "sunglasses"]);
         }),
+        trial("scenes::an_altitude_beside_an_object_is_honoured", || {
+            let line = "render --at 2026-08-27T23:30-07:00 --place Flagstaff --look Moon \
+                --altitude 12.5 --quiet --save-scene scene.toml";
+            let run = nocturne(words(line)).done();
+            let scene = String::from_utf8(run.read("scene.toml")).unwrap();
+            assert!(scene.contains("\naltitude_deg = 12.5\n"), "{scene}");
+        }),
         trial("scenes::options_are_checked_too", || {
             let run = nocturne(words("render --scene scene.toml --fov 400 --describe old.json"));
             run.with_file("scene.toml", saved()).refused(NONSENSE, &["field of view 400°"]);
