@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant as Clock;
 
 use nocturne::air::Atmosphere;
-use nocturne::air::scattering::{AirParameters, Quality, SKY_NODES_NM, ScatteringTables};
+use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
 use nocturne::catalog::{Catalogs, MoonMap};
 use nocturne::eye::Eye;
@@ -21,7 +21,7 @@ use nocturne::plan::{FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, Splat};
 use nocturne::render::Renderer;
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
-use nocturne::units::Xyzv;
+use nocturne::units::{Angle, Xyzv};
 
 /// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
 const SKIES: [(&str, &str); 3] = [
@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// What is computed before a frame, or after it, whatever the frame shows.
 fn computations() {
     println!("Computations, ms");
-    let air = AirParameters::default();
+    let air = Atmosphere::default();
     let solve =
         || ScatteringTables::solve(&air, &SKY_NODES_NM, Quality::RENDER).expect("the default air");
     println!("  ScatteringTables::solve {:10.1}", median_ms(SLOW, solve));
@@ -189,7 +189,7 @@ fn passes(renderer: &Renderer, plan: &FramePlan) -> Result<Cost, Box<dyn Error>>
 }
 
 fn see_ms(frame: &HdrFrame) -> f64 {
-    median_ms(FRAMES, || Eye::default().see(frame))
+    median_ms(FRAMES, || Eye::default().see(frame, Angle::from_arcmin(3.0)))
 }
 
 /// Median of repetitions, after one to warm up.
