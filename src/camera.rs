@@ -220,6 +220,11 @@ impl Camera {
         ])
     }
 
+    /// Where an apparent direction falls, in pixels; none when the plane has no place for it.
+    pub fn pixel_from_apparent(&self, dir: Dir<Apparent>) -> Option<[f64; 2]> {
+        self.pixel_from_view(self.view_from_apparent() * dir)
+    }
+
     /// The direction that a point of the picture looks in; none where the plane has no sky.
     pub fn view_from_pixel(&self, pixel: [f64; 2]) -> Option<Dir<View>> {
         let [x, y] = self.plane_from_pixel(pixel);

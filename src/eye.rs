@@ -6,14 +6,18 @@
 //! as a bluish grey (Jensen et al. 2000, *Night Rendering*, UUCS-00-016).
 //!
 //! How we differ: one scale for rods and cones, set by the better of the two, so that a brighter
-//! point is never shown darker; highlights are compressed by Reinhard et al. 2002, Eq. 3. Glare,
-//! acuity, and the time that adaptation takes are not here yet.
+//! point is never shown darker; highlights are compressed by Reinhard et al. 2002, Eq. 3. Acuity
+//! and the time that adaptation takes are not here yet.
+
+pub mod glare;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::image::{HdrFrame, Image};
-use crate::units::Xyzv;
+use crate::units::{Angle, Xyzv};
+
+use self::glare::{Glare, Scratch};
 
 /// How the picture is seen and shown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,11 +31,19 @@ pub struct Eye {
     pub adaptation_cd_m2: Option<f64>,
     /// Whether the rods see, in blue-grey; without them colours are those of day at any light.
     pub rods: bool,
+    /// Whether the eye scatters light, so that what is bright has a veil around it.
+    pub glare: bool,
 }
 
 impl Default for Eye {
     fn default() -> Self {
-        Eye { display_peak_cd_m2: 100.0, exposure_stops: 0.0, adaptation_cd_m2: None, rods: true }
+        Eye {
+            display_peak_cd_m2: 100.0,
+            exposure_stops: 0.0,
+            adaptation_cd_m2: None,
+            rods: true,
+            glare: true,
+        }
     }
 }
 
@@ -52,6 +64,11 @@ const ADAPTATION_EXPONENT: f64 = 0.4;
 const ADAPTATION_PIECE: usize = 1 << 14;
 /// What an eye adapts to that sees nothing, cd/m2: its own noise, about that of a starless sky.
 const DARKEST_CD_M2: f64 = 1e-4;
+
+/// A picture finer than this, about what an eye resolves, is seen magnified, as through a telescope
+/// or on a nearby screen: its pixels appear this far apart. Without it a close-up of the Moon
+/// would be no sharper than the naked eye sees her.
+const FINEST_PIXEL_DEG: f64 = 1.0 / 60.0;
 
 /// Below this the rods see alone, and above [`CONES_ALONE_LOG`] the cones: log10 of cd/m2
 /// (Jensen et al. 2000).
@@ -111,13 +128,16 @@ impl Eye {
         }
     }
 
-    /// The frame as the screen shows it.
-    pub fn see(&self, frame: &HdrFrame) -> Seen {
+    /// The frame as the screen shows it; `pixel_angle` is between pixels in its middle.
+    pub fn see(&self, frame: &HdrFrame, pixel_angle: Angle) -> Seen {
         let adaptation_cd_m2 = self.adapted_to(frame);
         let screen_adaptation = self.display_peak_cd_m2 / 2.0;
         let scale = threshold_cd_m2(screen_adaptation) / threshold_cd_m2(adaptation_cd_m2)
             * self.exposure_stops.exp2()
             / self.display_peak_cd_m2;
+        let glare = self
+            .glare
+            .then(|| Glare::of(frame, Angle::from_deg(pixel_angle.deg().max(FINEST_PIXEL_DEG))));
         let mut picture = Image::filled(frame.width_px(), frame.height_px(), [0; 3]);
         let width = frame.width_px() as usize;
         picture
@@ -125,7 +145,8 @@ impl Eye {
             .par_chunks_mut(width)
             .zip(frame.pixels().par_chunks(width))
             .enumerate()
-            .for_each(|(y, (row, lights))| {
+            .for_each_init(Scratch::default, |scratch, (y, (row, lights))| {
+                let lights = glare.as_ref().map_or(lights, |glare| glare.row(y, scratch));
                 for (x, (shown, &light)) in row.iter_mut().zip(lights).enumerate() {
                     *shown = encoded(self.shown(light, scale), dither(x as u32, y as u32));
                 }
@@ -246,7 +267,7 @@ mod tests {
         // What is adapted to is shown as what the screen's viewer adapts to: somewhat over half
         // of white by the ratio of thresholds, 0.357 after compression, 161 encoded.
         let [_, g, _] = Eye { rods: false, ..Eye::default() }
-            .see(&Image::filled(4, 4, [950.5, 1000.0, 1089.0, 2300.0]))
+            .see(&Image::filled(4, 4, [950.5, 1000.0, 1089.0, 2300.0]), Angle::from_deg(0.05))
             .picture
             .at(0, 0);
         assert!((160..=162).contains(&g), "{g}");

@@ -76,6 +76,13 @@ pub struct MoonState {
     pub subsolar: Libration,
 }
 
+impl BodyState {
+    /// Whether the disc of the body covers a direction.
+    pub fn covers(&self, dir: Dir<Horizon>) -> bool {
+        self.dir.separation(dir) < self.angular_radius
+    }
+}
+
 impl SkyState {
     /// The sky at an instant and a place, each body within `tolerance` if any tier is as good, else
     /// by the best there is.

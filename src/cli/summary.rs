@@ -4,7 +4,6 @@ use std::io::{self, Write};
 
 use crate::ephemeris::Body;
 use crate::light::night::{Kind, LitObject, Night};
-use crate::plan::lay::pixel_from_apparent;
 use crate::plan::ledger::Ledger;
 use crate::scene::Setting;
 use crate::units::Angle;
@@ -53,7 +52,9 @@ pub fn write(
 
 fn in_view(object: &LitObject, setting: &Setting) -> bool {
     object.apparent.altitude() >= Angle::ZERO
-        && pixel_from_apparent(&setting.camera, object.apparent)
+        && setting
+            .camera
+            .pixel_from_apparent(object.apparent)
             .is_some_and(|pixel| setting.camera.contains(pixel))
 }
 

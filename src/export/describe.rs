@@ -7,7 +7,6 @@ use serde::Serialize;
 
 use crate::ephemeris::Body;
 use crate::light::night::{Kind, LitObject, Night};
-use crate::plan::lay::pixel_from_apparent;
 use crate::scene::Setting;
 use crate::units::Angle;
 
@@ -83,7 +82,8 @@ impl Description {
     pub fn of(setting: &Setting, night: &Night) -> Description {
         let (instant, place, camera) = (&setting.instant, &setting.place, &setting.camera);
         let described = |object: &LitObject| {
-            let pixel = pixel_from_apparent(camera, object.apparent)
+            let pixel = camera
+                .pixel_from_apparent(object.apparent)
                 .filter(|_| object.apparent.altitude() >= Angle::ZERO)
                 .filter(|&pixel| camera.contains(pixel));
             let (kind, catalogue) = match object.kind {

@@ -9,13 +9,11 @@ use crate::catalog::{CatalogError, MoonMap};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::night::{LitObject, Night};
-use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
 use crate::units::{Angle, Xyzv};
 
 use super::disc::{AlbedoMap, Disc, DiscNode, DiscShape, NODES, SurfaceLaw};
-use super::lay::{is_within, pixel_from_apparent};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -37,7 +35,6 @@ pub struct SeenBody<'a> {
     night: &'a Night,
     camera: &'a Camera,
     refraction: Refraction,
-    spectrum: Spectrum,
     across_px: f64,
     nodes: Nodes,
 }
@@ -59,7 +56,8 @@ impl<'a> SeenBody<'a> {
         let height_m = night.sky.place.height_m;
         let refraction = night.air.refraction_at(height_m);
         let spectrum = night.irradiance(state);
-        let pixel_sr = pixel_from_apparent(camera, object.apparent)
+        let pixel_sr = camera
+            .pixel_from_apparent(object.apparent)
             .map_or(0.0, |pixel| camera.pixel_solid_angle_sr(pixel));
         // Where the plane has no place for the centre, the scale of the picture's own centre.
         let px_per_rad = if pixel_sr > 0.0 { pixel_sr.sqrt().recip() } else { camera.focal_px() };
@@ -82,7 +80,6 @@ impl<'a> SeenBody<'a> {
             night,
             camera,
             refraction,
-            spectrum,
         }
     }
 
@@ -118,7 +115,7 @@ impl<'a> SeenBody<'a> {
 
     /// Whether the Moon stands in front of this direction, and this is not the Moon.
     pub fn is_hidden(&self, dir: Dir<Horizon>) -> bool {
-        self.state.body != Body::Moon && is_within(&self.night.sky.moon.state, dir)
+        self.state.body != Body::Moon && self.night.sky.moon.state.covers(dir)
     }
 
     /// The rectangle of whole pixels that the disc can touch; none when it is out of view.
@@ -134,9 +131,9 @@ impl<'a> SeenBody<'a> {
             let turn = std::f64::consts::TAU * step as f64 / LIMB_POINTS as f64;
             let limb = centre * cos_radius + (side * turn.cos() + across * turn.sin()) * sin_radius;
             let apparent = self.apparent_from_horizon(Dir::from_vector(limb));
-            let Some(pixel) = pixel_from_apparent(self.camera, apparent) else {
+            let Some(pixel) = self.camera.pixel_from_apparent(apparent) else {
                 // Some of it is where the plane ends. If the centre is too, there is nothing.
-                return pixel_from_apparent(self.camera, self.apparent()).and(everything);
+                return self.camera.pixel_from_apparent(self.apparent()).and(everything);
             };
             for axis in 0..2 {
                 first[axis] = f64::min(first[axis], pixel[axis]);
@@ -145,9 +142,7 @@ impl<'a> SeenBody<'a> {
         }
         // Across the seam of a panorama, or around its pole, the limb spans the whole width.
         if self.camera.wrap_px().is_some_and(|wrap| last[0] - first[0] > 0.5 * wrap) {
-            (first[0], last[0]) = (0.0, width);
-            first[1] =
-                first[1].min(if self.state.dir.altitude().rad() > 0.0 { 0.0 } else { first[1] });
+            return everything;
         }
         let first = [(first[0] - 1.0).floor().max(0.0), (first[1] - 1.0).floor().max(0.0)];
         let last = [(last[0] + 1.0).ceil().min(width), (last[1] + 1.0).ceil().min(height)];
@@ -209,11 +204,6 @@ impl<'a> SeenBody<'a> {
             occluder: (self.state.body != Body::Moon).then_some((moon.dir, moon.angular_radius)),
             shape,
         }
-    }
-
-    /// Spectral irradiance of the body outside the air.
-    pub fn spectrum(&self) -> &Spectrum {
-        &self.spectrum
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::catalog::{CatalogError, MoonMap};
-use crate::frame::{Apparent, Dir, Horizon};
+use crate::frame::{Apparent, Dir};
 use crate::light::night::{Kind, LitObject, Night};
 use crate::scene::{Layers, Setting};
 use crate::sky::BodyState;
@@ -133,15 +133,14 @@ fn visible(
         return Ok(());
     }
     let camera = &plan.camera;
-    let Some(pixel) = pixel_from_apparent(camera, object.apparent) else {
+    let Some(pixel) = camera.pixel_from_apparent(object.apparent) else {
         return Err(OUT_OF_VIEW);
     };
     let peak = object.ground.y * SPLAT_PEAK / camera.pixel_solid_angle_sr(pixel);
     if peak < DROWNED * plan.sky.luminance(object.apparent).y {
         return Err(OUTSHONE);
     }
-    let hidden = |state: &BodyState| state.dir.separation(object.dir) < state.angular_radius;
-    if hidden(&night.sky.sun) || hidden(&night.sky.moon.state) {
+    if night.sky.sun.covers(object.dir) || night.sky.moon.state.covers(object.dir) {
         return Err(HIDDEN);
     }
     Ok(())
@@ -181,7 +180,7 @@ fn lay_point(
     illuminance: Xyzv,
     splats: &mut Vec<Splat>,
 ) -> bool {
-    let Some([x, y]) = pixel_from_apparent(camera, apparent) else { return false };
+    let Some([x, y]) = camera.pixel_from_apparent(apparent) else { return false };
     let before = splats.len();
     let turns = camera.wrap_px().map_or([0.0; 3], |wrap| [0.0, -wrap, wrap]);
     let repeats = if camera.wrap_px().is_some() { 3 } else { 1 };
@@ -193,14 +192,4 @@ fn lay_point(
         }
     }
     splats.len() > before
-}
-
-/// Where an apparent direction falls on the picture's plane.
-pub fn pixel_from_apparent(camera: &Camera, dir: Dir<Apparent>) -> Option<[f64; 2]> {
-    camera.pixel_from_view(camera.view_from_apparent() * dir)
-}
-
-/// Whether one geometric direction lies within the disc of a body.
-pub fn is_within(state: &BodyState, dir: Dir<Horizon>) -> bool {
-    state.dir.separation(dir) < state.angular_radius
 }

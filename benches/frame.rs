@@ -1,0 +1,209 @@
+//! What a frame costs: the plan on the CPU, the passes on the GPU, and the long computations.
+//!
+//! `cargo bench --bench frame`. Times are medians, in milliseconds; ratios are to the trivial pass
+//! of the same run and size, the sky of a plan without any light, so that machines compare.
+//! Without a graphics adapter only the CPU's part is printed, and the reason.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::time::Instant as Clock;
+
+use nocturne::air::Atmosphere;
+use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
+use nocturne::camera::Camera;
+use nocturne::catalog::{Catalogs, MoonMap};
+use nocturne::eye::Eye;
+use nocturne::image::HdrFrame;
+use nocturne::light::night::Night;
+use nocturne::light::star_light::StarLight;
+use nocturne::plan::lay::lay;
+use nocturne::plan::{FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, Splat};
+use nocturne::render::Renderer;
+use nocturne::scene::{Layers, Scene, Setting};
+use nocturne::sky::SkyState;
+use nocturne::units::{Angle, Xyzv};
+
+/// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
+const SKIES: [(&str, &str); 3] = [
+    ("dark night", "2026-08-13T04:30:00Z"),
+    ("moonlit night", "2026-08-28T06:00:00Z"),
+    ("day", "2026-08-15T17:00:00Z"),
+];
+const SIZES: [(u32, u32); 2] = [(1280, 720), (1920, 1080)];
+const SPLATS: [usize; 3] = [1000, 9096, 90_960];
+/// Repetitions whose median is taken: of frames, and of what takes a second.
+const FRAMES: usize = 15;
+const SLOW: usize = 5;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let catalogs = Catalogs::locate(None)?;
+    let moon_map = catalogs.moon_map()?;
+    computations();
+    println!("\nPlans, ms                          size   Night::of         lay  splats  discs");
+    let mut plans = Vec::new();
+    for size in SIZES {
+        for (name, utc) in SKIES {
+            plans.push((name, plan(name, utc, size, &catalogs, &moon_map)?));
+        }
+    }
+    let renderer = match Renderer::new() {
+        Ok(renderer) => renderer,
+        Err(error) => {
+            println!("\nNo passes: {error}");
+            return Ok(());
+        }
+    };
+    println!("\nPasses on {}", renderer.adapter());
+    for (width_px, height_px) in SIZES {
+        let of_size: Vec<_> =
+            plans.iter().filter(|(_, plan)| plan.camera.width_px == width_px).collect();
+        let (_, night) = of_size[0];
+        let trivial_ms = passes(&renderer, &empty(night.camera))?.of("sky");
+        println!("{width_px}x{height_px}: trivial pass {trivial_ms:.2} ms");
+        let line = |name: &str, pass: &str, ms: f64| {
+            println!("  {name:24} {pass:12} {ms:9.2} ms {:7.2}", ms / trivial_ms);
+        };
+        for (name, plan) in &of_size {
+            let cost = passes(&renderer, plan)?;
+            for (pass, ms) in &cost.passes {
+                line(name, pass, *ms);
+            }
+            line(name, "with the way back", cost.wall_ms);
+        }
+        for count in SPLATS {
+            let splats: Vec<Splat> = night.splats.iter().copied().cycle().take(count).collect();
+            let cost = passes(&renderer, &FramePlan { splats, ..empty(night.camera) })?;
+            line(&format!("{count} splats"), "splats", cost.of("splats"));
+        }
+        let frame = renderer.frame(night)?.frame;
+        line("Eye::see", "CPU", see_ms(&frame));
+    }
+    Ok(())
+}
+
+/// What is computed before a frame, or after it, whatever the frame shows.
+fn computations() {
+    println!("Computations, ms");
+    let air = Atmosphere::default();
+    let solve =
+        || ScatteringTables::solve(&air, &SKY_NODES_NM, Quality::RENDER).expect("the default air");
+    println!("  ScatteringTables::solve {:10.1}", median_ms(SLOW, solve));
+    let tables = solve();
+    for sun_deg in [40.0f64, -6.0] {
+        let view = || tables.sky_view(0.0, sun_deg.to_radians().sin(), SKY_AZIMUTHS, SKY_ALTITUDES);
+        println!("  sky_view, Sun at {sun_deg:3}° {:9.1}", median_ms(SLOW, view));
+    }
+    let starlight = || StarLight::new(&Atmosphere::default(), 0.0);
+    println!("  StarLight::new {:19.1}", median_ms(SLOW, starlight));
+}
+
+/// Lays a night or a day, and prints what that takes.
+fn plan(
+    name: &str,
+    utc: &str,
+    (width_px, height_px): (u32, u32),
+    catalogs: &Catalogs,
+    moon_map: &MoonMap,
+) -> Result<FramePlan, Box<dyn Error>> {
+    let setting = setting(utc, width_px, height_px)?;
+    let layers = Layers::default();
+    let air = Atmosphere::default();
+    let stars = catalogs.stars()?;
+    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
+    let light = || Night::of(sky.clone(), stars.clone(), &air);
+    let night = light();
+    let lay = || lay(&setting, &layers, &night, || Ok(moon_map.clone()));
+    let (plan, _) = lay()?;
+    println!(
+        "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",
+        format!("{width_px}x{height_px}"),
+        median_ms(SLOW, light),
+        median_ms(SLOW, lay),
+        plan.splats.len(),
+        plan.discs.len(),
+    );
+    Ok(plan)
+}
+
+/// Looks south-east from Flagstaff, where the Moon of the one night and the Sun of the day stand.
+fn setting(utc: &str, width_px: u32, height_px: u32) -> Result<Setting, Box<dyn Error>> {
+    let scene = format!(
+        r#"
+        nocturne_scene = 1
+        utc = "{utc}"
+        [place]
+        latitude_deg = 35.198
+        longitude_deg = -111.651
+        height_m = 2106.0
+        [camera]
+        azimuth_deg = 150.0
+        altitude_deg = 35.0
+        field_of_view_deg = 100.0
+        projection = "stereographic"
+        width_px = {width_px}
+        height_px = {height_px}
+        "#
+    );
+    Ok(Scene::parse(&scene)?.setting()?)
+}
+
+/// A plan without any light.
+fn empty(camera: Camera) -> FramePlan {
+    let sky = SkyPlan {
+        sun: None,
+        moon: None,
+        dark: vec![Xyzv::BLACK; SKY_ALTITUDES],
+        ground: Xyzv::BLACK,
+    };
+    FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
+}
+
+/// Medians of the passes of a plan, and of the whole with its way back to memory.
+struct Cost {
+    passes: Vec<(String, f64)>,
+    wall_ms: f64,
+}
+
+impl Cost {
+    /// A pass; the whole, where the adapter keeps no time.
+    fn of(&self, name: &str) -> f64 {
+        let found = self.passes.iter().find(|(pass, _)| pass == name);
+        found.map_or(self.wall_ms, |(_, ms)| *ms)
+    }
+}
+
+fn passes(renderer: &Renderer, plan: &FramePlan) -> Result<Cost, Box<dyn Error>> {
+    let mut runs = Vec::new();
+    renderer.frame(plan)?;
+    for _ in 0..FRAMES {
+        let start = Clock::now();
+        let times = renderer.frame(plan)?.times;
+        runs.push((start.elapsed().as_secs_f64() * 1e3, times));
+    }
+    let of_pass = |number: usize| median(runs.iter().map(|run| run.1[number].milliseconds));
+    let names = runs[0].1.iter().map(|time| time.pass.clone());
+    Ok(Cost {
+        passes: names.enumerate().map(|(number, name)| (name, of_pass(number))).collect(),
+        wall_ms: median(runs.iter().map(|run| run.0)),
+    })
+}
+
+fn see_ms(frame: &HdrFrame) -> f64 {
+    median_ms(FRAMES, || Eye::default().see(frame, Angle::from_arcmin(3.0)))
+}
+
+/// Median of repetitions, after one to warm up.
+fn median_ms<T>(repetitions: usize, mut run: impl FnMut() -> T) -> f64 {
+    black_box(run());
+    median((0..repetitions).map(|_| {
+        let start = Clock::now();
+        black_box(run());
+        start.elapsed().as_secs_f64() * 1e3
+    }))
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
+}
