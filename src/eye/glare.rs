@@ -70,8 +70,8 @@ const HEMISPHERE: f64 = 1.009_575_9;
 /// Taps of a step between levels, along one axis.
 const STEP: [f32; 5] = [0.0625, 0.25, 0.375, 0.25, 0.0625];
 /// Standard deviation of the Gaussian of a level, in its own pixels, and its reach.
-const LEVEL_SIGMA_PX: f64 = 1.0;
-const LEVEL_REACH_PX: usize = 4;
+const LEVEL_SIGMA_PX: f64 = 1.2;
+const LEVEL_REACH_PX: usize = 5;
 /// Gaussians on the picture itself.
 const NEAR: usize = 3;
 /// A spread wider than this many times the picture, or than half a turn, is even all over it.
@@ -156,8 +156,14 @@ struct Near {
     taps: Vec<f32>,
 }
 
+/// The frame as it reaches the retina; its pixels are `pixel_angle` apart in its middle.
+pub fn scattered(frame: &HdrFrame, pixel_angle: Angle) -> HdrFrame {
+    let glare = Glare::of(frame, pixel_angle);
+    in_rows(frame.width_px(), frame.height_px(), |y, padded, row| glare.fill(y, padded, row))
+}
+
 /// The light that the pixels of a frame give to one another.
-pub struct Glare<'a> {
+struct Glare<'a> {
     frame: &'a HdrFrame,
     near: Vec<Near>,
     /// All levels, gathered on the first.
@@ -167,8 +173,7 @@ pub struct Glare<'a> {
 }
 
 impl<'a> Glare<'a> {
-    /// Scatters the light of a frame whose pixels are `pixel_angle` apart in its middle.
-    pub fn of(frame: &'a HdrFrame, pixel_angle: Angle) -> Glare<'a> {
+    fn of(frame: &'a HdrFrame, pixel_angle: Angle) -> Glare<'a> {
         let (width, height) = (frame.width_px() as usize, frame.height_px() as usize);
         let mut shares = shares(width.max(height) as f64, pixel_angle.deg());
         let mut within: Vec<[Vec<f32>; 2]> = (0..shares.len())
@@ -191,33 +196,23 @@ impl<'a> Glare<'a> {
         Glare { frame, near, wide: wide(frame, &shares[NEAR..]), within }
     }
 
-    /// A row of the frame as it reaches the retina, cd/m2.
-    pub fn row<'s>(&self, y: usize, scratch: &'s mut Scratch) -> &'s [[f32; 4]] {
-        let Scratch { padded, given, row } = scratch;
+    /// A row of the frame as it reaches the retina.
+    fn fill(&self, y: usize, padded: &mut Vec<f32>, row: &mut [[f32; 4]]) {
+        let given = padded;
         given.clear();
-        given.resize(self.frame.width_px() as usize, 0.0);
+        given.resize(row.len(), 0.0);
         for [columns, rows] in &self.within {
             add_scaled(given, columns, rows[y]);
         }
-        row.clear();
-        let light = row_of(self.frame, y);
-        row.extend(
-            light.iter().zip(&*given).map(|(pixel, given)| pixel.map(|c| c * (1.0 - given))),
-        );
+        for ((row, light), given) in row.iter_mut().zip(row_of(self.frame, y)).zip(&*given) {
+            *row = light.map(|channel| channel * (1.0 - given));
+        }
+        let padded = given;
         for Near { share, taps } in &self.near {
             add_blurred(self.frame, y, taps, *share, padded, row);
         }
         add_doubled(&self.wide, y, padded, row);
-        row
     }
-}
-
-/// Rows in the making.
-#[derive(Default)]
-pub struct Scratch {
-    padded: Vec<f32>,
-    given: Vec<f32>,
-    row: Vec<[f32; 4]>,
 }
 
 /// The sum of all levels, on the first of them.
@@ -380,4 +375,211 @@ fn tapped(line: &[f32], centre: isize, taps: &[f32]) -> f32 {
     around
         .map(|(at, tap)| usize::try_from(at).ok().and_then(|at| line.get(at)).unwrap_or(&0.0) * tap)
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The equation, per steradian, `t` degrees from the source; normalised.
+    fn spread_per_sr(t_deg: f64) -> f64 {
+        let (bells, constant) = equation();
+        let at = |b: &Bell| b.peak_per_sr / (1.0 + (t_deg / b.width_deg).powi(2)).powf(b.power);
+        bells.iter().map(at).sum::<f64>() + constant
+    }
+
+    /// The share of a pixel's light that belongs into another, `[x, y]` pixels away.
+    fn expected(away_px: [f64; 2], pixel_deg: f64) -> f64 {
+        let parts = if away_px[0].hypot(away_px[1]) < 8.0 { 32 } else { 4 };
+        let part = |n: i32| (f64::from(n) + 0.5) / f64::from(parts) - 0.5;
+        let mut sum = 0.0;
+        for y in 0..parts {
+            for x in 0..parts {
+                let t_px = (away_px[0] + part(x)).hypot(away_px[1] + part(y));
+                sum += spread_per_sr(t_px * pixel_deg);
+            }
+        }
+        sum / f64::from(parts * parts) * pixel_deg.to_radians().powi(2)
+    }
+
+    fn black(width_px: u32, height_px: u32) -> HdrFrame {
+        Image::filled(width_px, height_px, [0.0; 4])
+    }
+
+    /// Light of a pixel in all channels.
+    fn point(width_px: u32, height_px: u32, [x, y]: [u32; 2]) -> HdrFrame {
+        let mut frame = black(width_px, height_px);
+        frame.pixels_mut()[(y * width_px + x) as usize] = [1.0, 2.0, 3.0, 4.0];
+        frame
+    }
+
+    fn sum(frame: &HdrFrame) -> [f64; 4] {
+        frame.pixels().iter().fold([0.0; 4], |sum, pixel| {
+            [0, 1, 2, 3].map(|channel| sum[channel] + f64::from(pixel[channel]))
+        })
+    }
+
+    #[test]
+    fn the_spread_is_normalised_over_the_hemisphere() {
+        let steps = 200_000;
+        let [low, high] = [1e-6f64, 90.0].map(f64::ln);
+        let step = (high - low) / f64::from(steps);
+        let integral: f64 = (0..steps)
+            .map(|n| {
+                let t_deg = (low + (f64::from(n) + 0.5) * step).exp();
+                let ring_sr = 2.0 * PI * t_deg.to_radians().sin() * t_deg.to_radians() * step;
+                spread_per_sr(t_deg) * ring_sr
+            })
+            .sum();
+        assert!((integral - 1.0).abs() < 1e-5, "{integral}");
+    }
+
+    /// The CIE General Disability Glare equation (Vos 2003, *Clin Exp Optom* 86, 363), which is
+    /// simpler and fitted to the same measurements.
+    #[test]
+    fn the_spread_agrees_with_the_general_equation() {
+        for t in [0.1f64, 0.3, 1.0, 3.0, 10.0, 30.0] {
+            let aged = 1.0 + (AGE_YEARS / 62.5).powi(4);
+            let general =
+                10.0 / t.powi(3) + (5.0 / t.powi(2) + 0.1 * PIGMENT / t) * aged + 2.5e-3 * PIGMENT;
+            let ratio = spread_per_sr(t) * HEMISPHERE / general;
+            assert!((1.0 / 1.35..1.35).contains(&ratio), "{t}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn light_is_conserved() {
+        for at in [[300, 300], [0, 0], [17, 598]] {
+            for pixel_deg in [0.005, 0.05, 0.3] {
+                let frame = point(600, 599, at);
+                let [before, after] =
+                    [sum(&frame), sum(&scattered(&frame, Angle::from_deg(pixel_deg)))];
+                for (before, after) in before.iter().zip(after) {
+                    assert!((after / before - 1.0).abs() < 1e-5, "{at:?}: {before} {after}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_profile_is_that_of_the_equation() {
+        let (width, height, at) = (1920u32, 400u32, [6u32, 10u32]);
+        for pixel_deg in [0.005, 0.05, 0.3] {
+            let retina = scattered(&point(width, height, at), Angle::from_deg(pixel_deg));
+            let reach = (60.0 / pixel_deg) as u32;
+            for away in (1..12).chain((12..).step_by(7)).take_while(|&n| n < reach.min(width - 6)) {
+                for away in [[away, 0], [away, away / 2], [away, away], [0, away]] {
+                    if at[0] + away[0] >= width || at[1] + away[1] >= height {
+                        continue;
+                    }
+                    let [_, share, ..] = retina.at(at[0] + away[0], at[1] + away[1]);
+                    let ratio = f64::from(share) / 2.0 / expected(away.map(f64::from), pixel_deg);
+                    assert!((ratio - 1.0).abs() < 0.05, "{pixel_deg}, {away:?}: {ratio}");
+                }
+            }
+        }
+    }
+
+    /// The star is splatted as the renderer does it, by cubic B-splines.
+    #[test]
+    fn a_halo_does_not_know_the_pixels() {
+        let spline = |t: f64| match t.abs() {
+            t if t < 1.0 => 2.0 / 3.0 - t * t + t.powi(3) / 2.0,
+            t if t < 2.0 => (2.0 - t).powi(3) / 6.0,
+            _ => 0.0,
+        };
+        let pixel_at = |n: u32| [n % 301, n / 301].map(f64::from);
+        let mut first: Option<[f64; 5]> = None;
+        for off in [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [1.3, 2.7], [3.2, 6.9], [9.0, 14.4]] {
+            let centre = off.map(|off| 150.0 + off);
+            let mut frame = black(301, 301);
+            for (n, pixel) in (0..).zip(frame.pixels_mut()) {
+                let [x, y] = pixel_at(n);
+                *pixel = [(spline(x - centre[0]) * spline(y - centre[1])) as f32; 4];
+            }
+            let star: Vec<(u32, f64)> = (0..)
+                .zip(frame.pixels())
+                .filter(|(_, light)| light[1] > 0.0)
+                .map(|(n, light)| (n, f64::from(light[1])))
+                .collect();
+            let retina = scattered(&frame, Angle::from_deg(0.05));
+
+            let mut moment = [0.0; 2];
+            let mut worst = 0.0f64;
+            let mut rings = [(0.0, 0); 5];
+            for (n, light) in (0..).zip(retina.pixels()) {
+                let [x, y] = pixel_at(n);
+                let away = (x - centre[0]).hypot(y - centre[1]);
+                let light = f64::from(light[1]);
+                if away < 100.0 {
+                    moment[0] += light * (x - centre[0]);
+                    moment[1] += light * (y - centre[1]);
+                }
+                // Beyond the star's own pixels; all of the inner ones and some of the many outer.
+                if away < 128.0 && away > 4.0 && (away < 16.0 || n % 29 == 0) {
+                    let part = |&(from, share): &(u32, f64)| {
+                        let [from_x, from_y] = pixel_at(from);
+                        share * expected([x - from_x, y - from_y], 0.05)
+                    };
+                    let error = light / star.iter().map(part).sum::<f64>() - 1.0;
+                    worst = worst.max(error.abs());
+                    let ring = &mut rings[away.log2() as usize - 2];
+                    *ring = (ring.0 + error, ring.1 + 1);
+                }
+            }
+            // The light stays centred on the star.
+            assert!(moment[0].hypot(moment[1]) < 0.001, "{off:?}: {moment:?}");
+            assert!(worst < 0.05, "{off:?}: {worst}");
+            // Around it, in rings, the halo is as bright wherever the star stands in its pixel.
+            let rings = rings.map(|(sum, count)| sum / f64::from(count));
+            let first = *first.get_or_insert(rings);
+            for (ring, first) in rings.iter().zip(first) {
+                assert!((ring - first).abs() < 0.005, "{off:?}: {rings:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_even_frame_stays_even() {
+        for (width, height) in [(1, 1), (3, 200), (333, 97)] {
+            for pixel_deg in [0.005, 0.05, 0.3, 5.0] {
+                let frame = Image::filled(width, height, [1.0, 10.0, 1e5, 1e-4]);
+                let retina = scattered(&frame, Angle::from_deg(pixel_deg));
+                for (before, after) in frame.pixels().iter().zip(retina.pixels()) {
+                    for (before, after) in before.iter().zip(after) {
+                        assert!((after / before - 1.0).abs() < 1e-5, "{before} {after}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn more_light_makes_nothing_darker() {
+        let [mut frame, _] = [point(90, 70, [40, 30]), black(90, 70)];
+        frame.pixels_mut()[0] = [1e9; 4];
+        let before = scattered(&frame, Angle::from_deg(0.05));
+        frame.pixels_mut()[20 * 90 + 75] = [7.0; 4];
+        let after = scattered(&frame, Angle::from_deg(0.05));
+        for (before, after) in before.pixels().iter().zip(after.pixels()) {
+            assert!(before.iter().zip(after).all(|(before, after)| after >= before));
+        }
+    }
+
+    #[test]
+    fn threads_do_not_change_the_bits() {
+        let frame = Image::from_pixels(
+            257,
+            130,
+            (0..257 * 130)
+                .map(|n| [(n * n % 1009) as f32, n as f32, 1e9 / (n + 1) as f32, 1.0])
+                .collect(),
+        );
+        let frame = frame.unwrap();
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| scattered(&frame, Angle::from_deg(0.05)))
+        };
+        assert!(with(1) == with(3));
+    }
 }
