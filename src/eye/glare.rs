@@ -17,7 +17,7 @@
 //! the middle of the picture, and opposite edges of a whole turn are not joined. The spread is that
 //! of daylight also by night, for all colours alike (no lenticular halo, no wider pupil). Beyond
 //! 90 degrees it goes on where it should end, and its term in t^2 is left out: 1 % of it at 40
-//! degrees, 11 % at 90.
+//! degrees, 10 % at 90. Pixels without sky receive light like any other.
 //!
 //! Accuracy: the spread from one pixel to another within 5 % of the equation averaged over the
 //! pixel, from one pixel to 60 degrees.
@@ -156,7 +156,8 @@ struct Near {
     taps: Vec<f32>,
 }
 
-/// The frame as it reaches the retina; its pixels are `pixel_angle` apart in its middle.
+/// The frame as it reaches the retina; its pixels are `pixel_angle` apart in its middle, which is
+/// more than zero.
 pub fn scattered(frame: &HdrFrame, pixel_angle: Angle) -> HdrFrame {
     let glare = Glare::of(frame, pixel_angle);
     in_rows(frame.width_px(), frame.height_px(), |y, padded, row| glare.fill(y, padded, row))
@@ -275,7 +276,7 @@ fn halved(fine: &HdrFrame) -> HdrFrame {
 /// Adds row `y` of twice the resolution of a frame: the transpose of [`halved`].
 fn add_doubled(coarse: &HdrFrame, y: usize, padded: &mut Vec<f32>, row: &mut [[f32; 4]]) {
     let [far, half, near, ..] = STEP.map(|tap| 2.0 * tap);
-    let taps = if y % 2 == 0 { [far, near, far] } else { [0.0, half, half] };
+    let taps = if y.is_multiple_of(2) { [far, near, far] } else { [0.0, half, half] };
     gather_rows(coarse, y as isize / 2 + 1, &taps, 0, padded);
     let (coarse, _) = padded.as_chunks::<4>();
     for (fine, [left, on, right]) in row.chunks_mut(2).zip(coarse.array_windows()) {
