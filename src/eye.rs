@@ -134,11 +134,11 @@ impl Eye {
     /// The frame as the screen shows it; `pixel_angle` is between pixels in its middle.
     pub fn see(&self, frame: &HdrFrame, pixel_angle: Angle) -> Seen {
         let mut seen = self.seen_frame(frame);
-        let adaptation_cd_m2 = self.adapted_to(&seen);
         if self.glare {
-            let fine = pixel_angle < FINEST_PIXEL;
-            seen = scattered(&seen, if fine { FINEST_PIXEL } else { pixel_angle });
+            seen = scattered(&seen, pixel_angle.max(FINEST_PIXEL));
         }
+        // The retina adapts to what reaches it, the veil of the glare included.
+        let adaptation_cd_m2 = self.adapted_to(&seen);
         let screen_adaptation = self.display_peak_cd_m2 / 2.0;
         let scale = threshold_cd_m2(screen_adaptation) / threshold_cd_m2(adaptation_cd_m2)
             * self.exposure_stops.exp2()
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn glare_keeps_the_colour_of_its_star_and_the_adaptation() {
+    fn glare_keeps_the_colour_of_its_star_and_raises_the_adaptation() {
         let mut orange = star(0.0);
         orange.pixels_mut()[50 * 101 + 50][0] *= 1.3;
         orange.pixels_mut()[50 * 101 + 50][2] *= 0.3;
@@ -319,7 +319,7 @@ mod tests {
             assert!(r > g && g > b, "{off}: {r} {g} {b}");
         }
         let without = Eye { glare: false, ..Eye::default() }.see(&orange, Angle::from_deg(0.05));
-        assert_eq!(seen.adaptation_cd_m2, without.adaptation_cd_m2);
+        assert!(seen.adaptation_cd_m2 > without.adaptation_cd_m2);
     }
 
     #[test]
