@@ -96,7 +96,7 @@ const LINES: &[Case] = &[
     ("unknown_command", &["paint"], &["'paint'", "--help"]),
     ("unknown_option", &["render", "--fob", "9"], &["'--fob'", "'--fov'"]),
     ("word_too_many", &["adapter", "please"], &["'please'", "--help"]),
-    ("objects_nowhere", &["objects"], &["--place NAME", "--lat and --lon"]),
+    ("objects_up_nowhere", &["objects", "--up"], &["--up", "--place NAME", "--lat and --lon"]),
     ("objects_unknown", &["objects", "Vulcan", "--place", "Flagstaff"], &["'Vulcan'", "lists all"]),
     ("objects_kind", &["objects", "--kind", "comet", "--place", "Flagstaff"], &["'comet'", "moon"]),
     (
