@@ -284,7 +284,7 @@ fn stars() -> impl Strategy<Value = Vec<Star>> {
     proptest::collection::vec(star, 0..40)
 }
 
-/// All air that the tables of the scattered light can be solved for.
+/// All air that a scene may hold.
 fn airs() -> impl Strategy<Value = Atmosphere> {
     let aerosol =
         (prop_oneof![Just(0.0), 0.0..=3.0], -1.0..=4.0, 0.5..=10.0, 0.0..=1.0, -0.9..=0.9);
