@@ -3,7 +3,7 @@
 PLACE ?= Flagstaff
 NOCTURNE = target/release/nocturne
 
-# Keeps a layer of the Mesa drivers from looking for a window system that a picture does not need.
+# Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
 .PHONY: sky test lint goldens picture pack clean

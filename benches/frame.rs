@@ -21,7 +21,7 @@ use nocturne::plan::{FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, Splat};
 use nocturne::render::Renderer;
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
-use nocturne::units::Xyzv;
+use nocturne::units::{Angle, Xyzv};
 
 /// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
 const SKIES: [(&str, &str); 3] = [
@@ -189,7 +189,7 @@ fn passes(renderer: &Renderer, plan: &FramePlan) -> Result<Cost, Box<dyn Error>>
 }
 
 fn see_ms(frame: &HdrFrame) -> f64 {
-    median_ms(FRAMES, || Eye::default().see(frame))
+    median_ms(FRAMES, || Eye::default().see(frame, Angle::from_arcmin(3.0)))
 }
 
 /// Median of repetitions, after one to warm up.

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
     // The frame is in cd/m2, from the dark between the stars to the disc of the Sun.
     let frame = Renderer::new()?.frame(&plan)?.frame;
-    let seen = scene.eye.see(&frame);
+    let seen = scene.eye.see(&frame, setting.camera.pixel_angle());
     png::write(OutputFile::create(&path)?, &seen.picture)?;
     println!("{}: an eye adapted to {:.2e} cd/m2", path.display(), seen.adaptation_cd_m2);
     Ok(())

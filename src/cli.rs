@@ -20,6 +20,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 
 use crate::catalog::Catalogs;
@@ -73,6 +74,12 @@ impl WhereArgs {
     /// The place asked for, if any was.
     fn find(&self, catalogs: &Catalogs) -> Result<Option<Place>, CliError> {
         let mut place = match (&self.place, self.lat, self.lon) {
+            (Some(name), _, _) if name.trim().is_empty() => {
+                return Err(CliError::Usage(
+                    "--place names nothing; give a city such as Flagstaff, or --lat and --lon"
+                        .to_owned(),
+                ));
+            }
             (Some(name), _, _) => Gazetteer::parse(&catalogs.places_text()?)?.find(name)?,
             (None, Some(lat), Some(lon)) => Place::new(lat, lon, 0.0)?,
             _ => return Ok(None),
@@ -90,24 +97,30 @@ impl WhereArgs {
 pub fn run() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => {
-            // Help and version go to standard output and are no errors.
+        Err(error) if is_help(&error) => {
             let code = u8::try_from(error.exit_code()).unwrap_or(2);
-            let _ = error.print();
-            return ExitCode::from(code);
+            return error.print().map_or_else(|error| fail(&error.into()), |()| code.into());
         }
+        Err(error) => return fail(&error.into()),
     };
     let mut out = io::stdout().lock();
     let result = dispatch(&cli, &mut out).and_then(|()| out.flush().map_err(CliError::from));
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            if let Some(message) = error.message() {
-                eprintln!("nocturne: {message}");
-            }
-            error.exit_code()
-        }
+    result.map_or_else(|error| fail(&error), |()| ExitCode::SUCCESS)
+}
+
+/// Help, also where no command was given, and the version: more than a sentence.
+fn is_help(error: &clap::Error) -> bool {
+    let is_short_of_a_command = ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    !error.use_stderr() || error.kind() == is_short_of_a_command
+}
+
+/// Says what went wrong.
+fn fail(error: &CliError) -> ExitCode {
+    if let Some(message) = error.message() {
+        // Where nobody can be told, the exit code still tells.
+        let _ = writeln!(io::stderr(), "nocturne: {message}");
     }
+    error.exit_code()
 }
 
 fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {

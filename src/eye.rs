@@ -6,14 +6,21 @@
 //! as a bluish grey (Jensen et al. 2000, *Night Rendering*, UUCS-00-016).
 //!
 //! How we differ: one scale for rods and cones, set by the better of the two, so that a brighter
-//! point is never shown darker; highlights are compressed by Reinhard et al. 2002, Eq. 3. Glare,
-//! acuity, and the time that adaptation takes are not here yet.
+//! point is never shown darker; highlights are compressed by Reinhard et al. 2002, Eq. 3. Glare
+//! keeps the colour of what it comes from: rods and cones see each point before its light is
+//! scattered, not after. The other order would put a rod-blue ring around every orange star; one
+//! looks at a star with the fovea, whose middle degree has no rods. Acuity and the time that
+//! adaptation takes are not here yet.
+
+pub mod glare;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::image::{HdrFrame, Image};
-use crate::units::Xyzv;
+use crate::units::{Angle, Xyzv};
+
+use self::glare::scattered;
 
 /// How the picture is seen and shown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,11 +34,19 @@ pub struct Eye {
     pub adaptation_cd_m2: Option<f64>,
     /// Whether the rods see, in blue-grey; without them colours are those of day at any light.
     pub rods: bool,
+    /// Whether the eye scatters light, so that what is bright has a veil around it.
+    pub glare: bool,
 }
 
 impl Default for Eye {
     fn default() -> Self {
-        Eye { display_peak_cd_m2: 100.0, exposure_stops: 0.0, adaptation_cd_m2: None, rods: true }
+        Eye {
+            display_peak_cd_m2: 100.0,
+            exposure_stops: 0.0,
+            adaptation_cd_m2: None,
+            rods: true,
+            glare: true,
+        }
     }
 }
 
@@ -52,6 +67,11 @@ const ADAPTATION_EXPONENT: f64 = 0.4;
 const ADAPTATION_PIECE: usize = 1 << 14;
 /// What an eye adapts to that sees nothing, cd/m2: its own noise, about that of a starless sky.
 const DARKEST_CD_M2: f64 = 1e-4;
+
+/// A picture finer than this, about what an eye resolves, is seen magnified, as through a telescope
+/// or on a nearby screen: its pixels appear this far apart, one minute of arc. Otherwise a
+/// close-up of the Moon would be no sharper than the naked eye sees her.
+const FINEST_PIXEL: Angle = Angle::from_arcmin(1.0);
 
 /// Below this the rods see alone, and above [`CONES_ALONE_LOG`] the cones: log10 of cd/m2
 /// (Jensen et al. 2000).
@@ -89,17 +109,17 @@ pub fn threshold_cd_m2(luminance_cd_m2: f64) -> f64 {
 }
 
 impl Eye {
-    /// What an eye in front of the frame adapts to, cd/m2.
-    fn adapted_to(&self, frame: &HdrFrame) -> f64 {
+    /// What an eye that sees this adapts to, cd/m2. Glare is not part of it.
+    fn adapted_to(&self, seen: &HdrFrame) -> f64 {
         if let Some(given) = self.adaptation_cd_m2 {
             return given;
         }
         // Summed piece by piece and in order, so that the same frame gives the same bits.
-        let pieces: Vec<(f64, u64)> = frame
+        let pieces: Vec<(f64, u64)> = seen
             .pixels()
             .par_chunks(ADAPTATION_PIECE)
             .map(|pixels| {
-                let lit = pixels.iter().map(|&pixel| self.seen(pixel).y).filter(|&y| y > 0.0);
+                let lit = pixels.iter().map(|&[_, y, ..]| f64::from(y)).filter(|&y| y > 0.0);
                 lit.fold((0.0, 0), |(sum, n), y| (sum + y.powf(ADAPTATION_EXPONENT), n + 1))
             })
             .collect();
@@ -111,9 +131,14 @@ impl Eye {
         }
     }
 
-    /// The frame as the screen shows it.
-    pub fn see(&self, frame: &HdrFrame) -> Seen {
-        let adaptation_cd_m2 = self.adapted_to(frame);
+    /// The frame as the screen shows it; `pixel_angle` is between pixels in its middle.
+    pub fn see(&self, frame: &HdrFrame, pixel_angle: Angle) -> Seen {
+        let mut seen = self.seen_frame(frame);
+        if self.glare {
+            seen = scattered(&seen, pixel_angle.max(FINEST_PIXEL));
+        }
+        // The retina adapts to what reaches it, the veil of the glare included.
+        let adaptation_cd_m2 = self.adapted_to(&seen);
         let screen_adaptation = self.display_peak_cd_m2 / 2.0;
         let scale = threshold_cd_m2(screen_adaptation) / threshold_cd_m2(adaptation_cd_m2)
             * self.exposure_stops.exp2()
@@ -123,35 +148,44 @@ impl Eye {
         picture
             .pixels_mut()
             .par_chunks_mut(width)
-            .zip(frame.pixels().par_chunks(width))
+            .zip(seen.pixels().par_chunks(width))
             .enumerate()
             .for_each(|(y, (row, lights))| {
                 for (x, (shown, &light)) in row.iter_mut().zip(lights).enumerate() {
-                    *shown = encoded(self.shown(light, scale), dither(x as u32, y as u32));
+                    *shown = encoded(srgb(light, scale), dither(x as u32, y as u32));
                 }
             });
         Seen { picture, adaptation_cd_m2 }
     }
 
-    /// The light that rods and cones make of a pixel together; X, Y and Z count.
-    fn seen(&self, [x, y, z, v]: [f32; 4]) -> Xyzv {
-        let light = Xyzv::new(x.into(), y.into(), z.into(), v.into());
-        let cones = if self.rods { cone_share(light.y) } else { 1.0 };
-        let [rod_x, rod_y] = ROD_CHROMATICITY;
-        let grey = Xyzv::new(rod_x / rod_y, 1.0, (1.0 - rod_x - rod_y) / rod_y, 0.0);
-        light * cones + grey * ((1.0 - cones) * ROD_GAIN * light.v)
-    }
-
-    /// A pixel as sRGB, 0 to 1; `scale` takes cd/m2 to shares of the screen's white.
-    fn shown(&self, pixel: [f32; 4], scale: f64) -> [f64; 3] {
-        let seen = self.seen(pixel) * scale;
-        if seen.y <= 0.0 {
-            return [0.0; 3];
+    /// What rods and cones make of a frame together; X, Y and Z count.
+    fn seen_frame(&self, frame: &HdrFrame) -> HdrFrame {
+        let mut seen = frame.clone();
+        if self.rods {
+            seen.pixels_mut().par_iter_mut().for_each(|pixel| *pixel = by_rods_and_cones(*pixel));
         }
-        // Reinhard et al. 2002, Eq. 3, on the luminance; the colour stays.
-        let luminance = seen.y / (1.0 + seen.y);
-        srgb_from_linear(within_gamut(linear_srgb(seen * (luminance / seen.y)), luminance))
+        seen
     }
+}
+
+/// The light that rods and cones make of a pixel together; X, Y and Z count.
+fn by_rods_and_cones([x, y, z, v]: [f32; 4]) -> [f32; 4] {
+    let light = Xyzv::new(x.into(), y.into(), z.into(), v.into());
+    let cones = cone_share(light.y);
+    let [rod_x, rod_y] = ROD_CHROMATICITY;
+    let grey = Xyzv::new(rod_x / rod_y, 1.0, (1.0 - rod_x - rod_y) / rod_y, 0.0);
+    (light * cones + grey * ((1.0 - cones) * ROD_GAIN * light.v)).to_f32()
+}
+
+/// What is seen as sRGB, 0 to 1; `scale` takes cd/m2 to shares of the screen's white.
+fn srgb([x, y, z, v]: [f32; 4], scale: f64) -> [f64; 3] {
+    let seen = Xyzv::new(x.into(), y.into(), z.into(), v.into()) * scale;
+    if seen.y <= 0.0 {
+        return [0.0; 3];
+    }
+    // Reinhard et al. 2002, Eq. 3, on the luminance; the colour stays.
+    let luminance = seen.y / (1.0 + seen.y);
+    srgb_from_linear(within_gamut(linear_srgb(seen * (luminance / seen.y)), luminance))
 }
 
 /// Linear sRGB of a light, IEC 61966-2-1.
@@ -214,13 +248,13 @@ mod tests {
 
     #[test]
     fn brighter_is_never_shown_darker() {
-        let eye = Eye::default();
         // The light of a star of the Sun's colour, and that of the night sky.
         for scotopic_ratio in [1.4f32, 2.35] {
             let shown: Vec<f64> = ladder()
                 .map(|l| {
                     let y = l as f32;
-                    eye.shown([0.95 * y, y, 1.09 * y, scotopic_ratio * y], 20.0)[1]
+                    let light = [0.95 * y, y, 1.09 * y, scotopic_ratio * y];
+                    srgb(by_rods_and_cones(light), 20.0)[1]
                 })
                 .collect();
             assert!(shown.windows(2).all(|pair| pair[1] >= pair[0]), "{shown:?}");
@@ -230,11 +264,10 @@ mod tests {
 
     #[test]
     fn night_is_bluish_and_day_is_white() {
-        let eye = Eye::default();
         let white = |y: f32| [0.9505 * y, y, 1.089 * y, 2.3 * y];
-        let [r, g, b] = eye.shown(white(1e-4), 1e4);
+        let [r, g, b] = srgb(by_rods_and_cones(white(1e-4)), 1e4);
         assert!(b > g && g > r, "{r} {g} {b}");
-        let [r, g, b] = eye.shown(white(1e3), 1e-3);
+        let [r, g, b] = srgb(by_rods_and_cones(white(1e3)), 1e-3);
         assert!((r - g).abs() < 0.002 && (g - b).abs() < 0.002, "{r} {g} {b}");
     }
 
@@ -246,10 +279,47 @@ mod tests {
         // What is adapted to is shown as what the screen's viewer adapts to: somewhat over half
         // of white by the ratio of thresholds, 0.357 after compression, 161 encoded.
         let [_, g, _] = Eye { rods: false, ..Eye::default() }
-            .see(&Image::filled(4, 4, [950.5, 1000.0, 1089.0, 2300.0]))
+            .see(&Image::filled(4, 4, [950.5, 1000.0, 1089.0, 2300.0]), Angle::from_deg(0.05))
             .picture
             .at(0, 0);
         assert!((160..=162).contains(&g), "{g}");
+    }
+
+    /// A star over a dark sky, by its magnitude, in a picture of 0.05 degrees per pixel.
+    fn star(magnitude: f64) -> HdrFrame {
+        let mut frame = Image::filled(101, 101, [2e-4, 2e-4, 2e-4, 4e-4]);
+        let pixel_sr = Angle::from_deg(0.05).rad().powi(2);
+        let light = (2.54e-6 * 10f64.powf(-0.4 * magnitude) / pixel_sr) as f32;
+        frame.pixels_mut()[50 * 101 + 50] = [light, light, light, 2.0 * light];
+        frame
+    }
+
+    #[test]
+    fn a_brighter_star_looks_larger() {
+        let size = |magnitude, glare| {
+            let eye = Eye { glare, adaptation_cd_m2: Some(2e-4), ..Eye::default() };
+            let picture = eye.see(&star(magnitude), Angle::from_deg(0.05)).picture;
+            let [_, sky, _] = picture.at(0, 0);
+            picture.pixels().iter().filter(|[_, g, _]| *g > 2 * sky).count()
+        };
+        let sizes = [6.0, 4.0, 2.0, 0.0].map(|magnitude| size(magnitude, true));
+        assert!(sizes.windows(2).all(|pair| pair[1] >= 2 * pair[0]), "{sizes:?}");
+        assert!((1..=9).contains(&sizes[0]) && sizes[3] < 2000, "{sizes:?}");
+        assert_eq!([6.0, 0.0].map(|magnitude| size(magnitude, false)), [1, 1]);
+    }
+
+    #[test]
+    fn glare_keeps_the_colour_of_its_star_and_raises_the_adaptation() {
+        let mut orange = star(0.0);
+        orange.pixels_mut()[50 * 101 + 50][0] *= 1.3;
+        orange.pixels_mut()[50 * 101 + 50][2] *= 0.3;
+        let seen = Eye::default().see(&orange, Angle::from_deg(0.05));
+        for off in [0, 2, 4] {
+            let [r, g, b] = seen.picture.at(50 + off, 50);
+            assert!(r > g && g > b, "{off}: {r} {g} {b}");
+        }
+        let without = Eye { glare: false, ..Eye::default() }.see(&orange, Angle::from_deg(0.05));
+        assert!(seen.adaptation_cd_m2 > without.adaptation_cd_m2);
     }
 
     #[test]

@@ -55,7 +55,7 @@ fn golden(renderer: &Renderer, path: &Path) -> Result<(), Failed> {
 
 fn write(scene: &Scene, frame: &HdrFrame, camera: &Camera, path: &Path) -> Result<(), Failed> {
     exr::write(OutputFile::create(&path.with_extension("exr"))?, frame, &[])?;
-    let mut seen = scene.eye.see(frame).picture;
+    let mut seen = scene.eye.see(frame, camera.pixel_angle()).picture;
     overlay::draw(scene.marks, &mut seen, camera);
     Ok(png::write(OutputFile::create(&path.with_extension("png"))?, &seen)?)
 }

@@ -41,7 +41,7 @@ pub fn draw(
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
     let seen = progress.step("seeing", || {
-        let mut seen = scene.eye.see(&frame);
+        let mut seen = scene.eye.see(&frame, setting.camera.pixel_angle());
         overlay::draw(scene.marks, &mut seen.picture, &setting.camera);
         seen
     });

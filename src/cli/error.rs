@@ -43,6 +43,18 @@ impl From<io::Error> for CliError {
     }
 }
 
+impl From<clap::Error> for CliError {
+    /// What clap says, without the usage that follows.
+    fn from(error: clap::Error) -> Self {
+        let said = error.render().to_string();
+        let is_usage = |line: &str| line.starts_with("Usage:") || line.starts_with("For more");
+        let lines: Vec<&str> = said.lines().take_while(|line| !is_usage(line)).collect();
+        let said = lines.join(" ").replace("  tip: ", "; ");
+        let said = said.trim().trim_start_matches("error: ");
+        CliError::Usage(format!("{said}; try --help"))
+    }
+}
+
 macro_rules! from_error {
     ($kind:ident: $($error:ty),* $(,)?) => {
         $(impl From<$error> for CliError {

@@ -1,4 +1,4 @@
-//! `nocturne objects`: what stands in the sky, where, and how bright.
+//! `nocturne objects`: what is known, and with a place, where it stands and how bright it is.
 
 use std::io::Write;
 
@@ -8,6 +8,7 @@ use crate::air::Atmosphere;
 use crate::catalog::Catalogs;
 use crate::ephemeris::Body;
 use crate::light::night::{Kind, LitObject, Night};
+use crate::place::Place;
 use crate::units::Angle;
 
 use super::WhereArgs;
@@ -60,22 +61,37 @@ impl KindArg {
 }
 
 pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
-    let place = args
-        .location
-        .find(catalogs)?
-        .ok_or_else(|| CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned()))?;
+    if args.magnitude_limit.is_some_and(f64::is_nan) {
+        return Err(CliError::Usage("--magnitude-limit is no number; give a magnitude".to_owned()));
+    }
+    let found = args.location.find(catalogs)?;
+    let is_somewhere = found.is_some();
+    if args.up && !is_somewhere {
+        let message = "--up asks for a horizon: give --place NAME, or --lat and --lon";
+        return Err(CliError::Usage(message.to_owned()));
+    }
+    // Magnitudes are those of now wherever one stands.
+    let place = found.map_or_else(|| Place::new(0.0, 0.0, 0.0), Ok)?;
     let instant = stage::instant(&args.at, &place)?;
     let night = stage::night(&instant, &place, TOLERANCE, &Atmosphere::default(), catalogs)?;
     let query = args.query.to_lowercase();
-    writeln!(
-        out,
-        "{:<26} {:<8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>4}",
-        "name", "number", "V", "B-V", "azimuth", "altitude", "seen at", "wind"
-    )?;
+    let is_called = |object: &LitObject| {
+        let names = [night.label(object), number(object, &night), designation(object, &night)];
+        names.iter().any(|name| name.to_lowercase().contains(&query))
+    };
+    if !night.objects.iter().any(is_called) {
+        return Err(CliError::Usage(format!(
+            "nothing called '{}'; `nocturne objects` without a name lists all",
+            args.query
+        )));
+    }
+    write!(out, "{:<26} {:<8} {:<8} {:>6} {:>6}", "name", "number", "known as", "V", "B-V")?;
+    match is_somewhere {
+        true => writeln!(out, " {:>9} {:>9} {:>9} wind", "azimuth", "altitude", "seen at")?,
+        false => writeln!(out)?,
+    }
     for object in &night.objects {
-        let number = number(object, &night);
-        let names = [night.label(object), number.clone(), designation(object, &night)];
-        let wanted = names.iter().any(|name| name.to_lowercase().contains(&query))
+        let wanted = is_called(object)
             && args.kind.is_none_or(|kind| kind.is(object))
             && args.magnitude_limit.is_none_or(|limit| object.magnitude.0 <= limit)
             && (!args.up || object.apparent.altitude() >= Angle::ZERO);
@@ -86,18 +102,22 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
             Kind::Star(index) => format!("{:.2}", night.stars[index].b_v),
             Kind::Body(_) => String::new(),
         };
-        writeln!(
-            out,
-            "{:<26} {:<8} {:>6.2} {:>6} {:>9.4} {:>+9.4} {:>+9.4} {:>4}",
-            names[0],
-            number,
-            object.magnitude.0,
-            b_v,
-            object.dir.azimuth().deg(),
-            object.dir.altitude().deg(),
-            object.apparent.altitude().deg(),
-            wind(object.apparent.azimuth())
-        )?;
+        let (name, number) = (night.label(object), number(object, &night));
+        let (known_as, v) = (designation(object, &night), object.magnitude.0);
+        write!(out, "{name:<26} {number:<8} {known_as:<8} {v:>6.2} {b_v:>6}")?;
+        if is_somewhere {
+            let (azimuth, altitude) = (object.dir.azimuth(), object.dir.altitude());
+            let seen_at = object.apparent.altitude();
+            write!(
+                out,
+                " {:>9.4} {:>+9.4} {:>+9.4} {}",
+                azimuth.deg(),
+                altitude.deg(),
+                seen_at.deg(),
+                wind(azimuth)
+            )?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }

@@ -63,6 +63,7 @@ impl Outputs {
             description: if describe_to_stdout { None } else { open(description)? },
             describe_to_stdout,
         };
+        outputs.check_apart()?;
         if !outputs.draws() && scene.is_none() && description.is_none() {
             return Err(CliError::Usage(
                 "nothing to write: give --output FILE, --describe FILE or --save-scene FILE"
@@ -75,6 +76,21 @@ impl Outputs {
     /// Whether a picture has to be drawn at all.
     pub fn draws(&self) -> bool {
         !self.png.is_empty() || !self.exr.is_empty()
+    }
+
+    /// Refuses two outputs of the same name, one of which would be lost.
+    fn check_apart(&self) -> Result<(), CliError> {
+        let pictures = self.png.iter().chain(&self.exr);
+        let files: Vec<_> = pictures.chain(&self.scene).chain(&self.description).collect();
+        for (index, file) in files.iter().enumerate() {
+            if files[..index].iter().any(|other| other.is_same_as(file)) {
+                return Err(CliError::Usage(format!(
+                    "{} is given for two outputs; give each a file of its own",
+                    file.path().display()
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// Steps of the work: positions and writing, and four of drawing.

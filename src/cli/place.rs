@@ -15,7 +15,7 @@ pub struct PlaceArgs {
     #[arg(default_value = "")]
     query: String,
     /// How many to list
-    #[arg(long, default_value_t = 20, value_name = "N")]
+    #[arg(long, default_value_t = 20, value_name = "N", allow_hyphen_values = true)]
     limit: usize,
 }
 
@@ -23,7 +23,7 @@ pub fn run(args: &PlaceArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resul
     let text = catalogs.places_text()?;
     let gazetteer = Gazetteer::parse(&text)?;
     let found = gazetteer.search(&args.query, args.limit);
-    if found.is_empty() {
+    if found.is_empty() && args.limit > 0 {
         // The look-up by name knows what is near it.
         gazetteer.find(&args.query)?;
     }

@@ -41,13 +41,13 @@ pub struct RenderArgs {
     #[arg(long, value_enum)]
     projection: Option<ProjectionArg>,
     /// Width and height in pixels [default: 1280x720]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
     /// Leave out stars and planets fainter than this
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     magnitude_limit: Option<f64>,
     /// How far off positions may be, arcseconds [default: a tenth of a pixel]
-    #[arg(long, value_name = "ARCSEC")]
+    #[arg(long, value_name = "ARCSEC", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Brighter (positive) or darker PNG, in factors of two [default: 0]
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
@@ -119,7 +119,7 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     if let Some(Look::Object(name)) = &args.look {
         let towards = look::towards(name, &night)?;
         scene.camera.azimuth_deg = towards.azimuth().deg();
-        scene.camera.altitude_deg = towards.altitude().deg();
+        scene.camera.altitude_deg = args.altitude.unwrap_or(towards.altitude().deg());
         setting = scene.setting()?;
     }
     let drawn = match outputs.draws() {
@@ -205,9 +205,16 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
 }
 
 fn read_scene(path: &Path) -> Result<Scene, CliError> {
-    let wrong = |message: String| CliError::Usage(format!("--scene {}: {message}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-    Scene::parse(&text).map_err(|error| wrong(error.to_string()))
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        CliError::Failure(format!(
+            "cannot read --scene {}: {error}; --save-scene writes such a file",
+            path.display()
+        ))
+    })?;
+    // Checked here, where it is known that the values come from the file.
+    Scene::parse(&text)
+        .and_then(|scene| scene.setting().map(|_| scene))
+        .map_err(|error| CliError::Usage(format!("--scene {}: {error}", path.display())))
 }
 
 fn change_camera(args: &RenderArgs, camera: &mut SceneCamera) {

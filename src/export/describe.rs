@@ -77,6 +77,12 @@ pub struct DescribedObject {
     pub pixel_solid_angle_sr: Option<f64>,
 }
 
+/// Degrees of an angle that somebody wrote, without the rounding of radians: 30, not 29.999...96.
+fn as_written(angle: Angle) -> f64 {
+    const DECIMALS: f64 = 1e11;
+    (angle.deg() * DECIMALS).round() / DECIMALS
+}
+
 impl Description {
     /// Describes the picture that the camera of a setting takes of a night.
     pub fn of(setting: &Setting, night: &Night) -> Description {
@@ -115,16 +121,16 @@ impl Description {
             delta_t_s: instant.delta_t_s(),
             place: DescribedPlace {
                 name: place.name.clone(),
-                latitude_deg: place.latitude.deg(),
-                longitude_deg: place.longitude.deg(),
+                latitude_deg: as_written(place.latitude),
+                longitude_deg: as_written(place.longitude),
                 height_m: place.height_m,
             },
             camera: DescribedCamera {
                 projection: camera.projection.name(),
-                field_of_view_deg: camera.field_of_view.deg(),
-                azimuth_deg: camera.azimuth.deg(),
-                altitude_deg: camera.altitude.deg(),
-                roll_deg: camera.roll.deg(),
+                field_of_view_deg: as_written(camera.field_of_view),
+                azimuth_deg: as_written(camera.azimuth),
+                altitude_deg: as_written(camera.altitude),
+                roll_deg: as_written(camera.roll),
                 width_px: camera.width_px,
                 height_px: camera.height_px,
                 focal_px: camera.focal_px(),

@@ -24,6 +24,9 @@ pub enum Attribute {
 /// Names of the channels, in the order of a pixel of the frame.
 const CHANNELS: [&str; 4] = ["X", "Y", "Z", "V"];
 
+/// Bytes of an EXR file before its attributes: the magic number and the version.
+const FIRST_ATTRIBUTE: usize = 8;
+
 /// Writes a frame with named attributes.
 pub fn write(
     file: OutputFile,
@@ -51,8 +54,36 @@ pub fn write(
         // The format wants to seek, which it does less in memory than on a disk.
         let mut bytes = io::Cursor::new(Vec::new());
         image.write().to_buffered(&mut bytes).map_err(io::Error::other)?;
-        io::Write::write_all(writer, bytes.get_ref())
+        let mut bytes = bytes.into_inner();
+        sort_attributes(&mut bytes);
+        io::Write::write_all(writer, &bytes)
     })
+}
+
+/// Puts the attributes of a file in the order of their names, so that the same frame gives the same
+/// bytes: the library takes them from a hash map, in another order each time.
+///
+/// An attribute is its name and its type, each with a zero after it, its size in four bytes, and
+/// its value; a zero ends the list (OpenEXR file layout, "Header").
+fn sort_attributes(file: &mut [u8]) {
+    let mut attributes = Vec::new();
+    let mut rest = &file[FIRST_ATTRIBUTE..];
+    while let Some((attribute, after)) = split_attribute(rest) {
+        attributes.push(attribute);
+        rest = after;
+    }
+    attributes.sort_unstable();
+    let sorted = attributes.concat();
+    file[FIRST_ATTRIBUTE..FIRST_ATTRIBUTE + sorted.len()].copy_from_slice(&sorted);
+}
+
+/// The first attribute and what follows it; none at the end of the list.
+fn split_attribute(list: &[u8]) -> Option<(&[u8], &[u8])> {
+    let name = list.iter().position(|&byte| byte == 0).filter(|&length| length > 0)?;
+    let kind = list[name + 1..].iter().position(|&byte| byte == 0)?;
+    let (head, value) = list.split_at_checked(name + 1 + kind + 1 + 4)?;
+    let size = u32::from_le_bytes(*head.last_chunk()?);
+    value.get(size as usize..).map(|after| list.split_at(list.len() - after.len()))
 }
 
 /// Reads a frame back, with its text attributes: for tests and for tools that compare frames.
@@ -84,4 +115,30 @@ pub fn read(path: &std::path::Path) -> Result<(HdrFrame, Vec<(String, String)>),
         (name.to_string(), value)
     });
     Ok((frame, texts.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Image;
+
+    #[test]
+    fn the_same_frame_gives_the_same_file_and_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let frame = Image::filled(3, 2, [1e-6f32, 2.0, 3e9, 0.5]);
+        let names = ["units", "place", "jd_tt", "azimuth_deg", "altitude_deg", "roll_deg"];
+        let attributes = names.map(|name| (name, Attribute::Text(format!("of {name}"))));
+        let files = ["first.exr", "second.exr"].map(|name| {
+            let path = folder.path().join(name);
+            write(OutputFile::create(&path).unwrap(), &frame, &attributes).unwrap();
+            path
+        });
+        let [first, second] = [&files[0], &files[1]].map(|path| std::fs::read(path).unwrap());
+        assert_eq!(first, second);
+        let (back, said) = read(&files[0]).unwrap();
+        assert_eq!(back, frame);
+        for name in names {
+            assert!(said.contains(&(name.to_owned(), format!("of {name}"))), "{said:?}");
+        }
+    }
 }
