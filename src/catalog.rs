@@ -80,8 +80,6 @@ pub enum CatalogError {
     Picture { what: String },
     #[error("SOURCES.toml has no path and sha256 for {file}; add a [[file]] table for it")]
     NoSource { file: &'static str },
-    #[error("{path} cannot be written: {source}")]
-    Write { path: PathBuf, source: io::Error },
 }
 
 /// The directory that holds the catalogues.

@@ -2,12 +2,14 @@
 //! makes.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
 use nocturne::catalog::pack::{self, Packed, SOURCES_FILE};
 use nocturne::catalog::sha256_hex;
+use nocturne::export::OutputFile;
 
 /// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
 const MOON_PICTURE: &str = "moon_lroc_color_4096x2048.jpg";
@@ -95,7 +97,7 @@ fn write(out: &Path, packed: &[Packed]) -> Result<(), String> {
     let sources = pack::refresh_sources(&sources, packed).map_err(|error| error.to_string())?;
     for packed in packed {
         let path = out.join(packed.file);
-        pack::write_atomically(&path, &packed.bytes).map_err(|error| error.to_string())?;
+        put(&path, &packed.bytes)?;
         println!(
             "{}: {} bytes, SHA-256 {}… ({})",
             path.display(),
@@ -104,5 +106,10 @@ fn write(out: &Path, packed: &[Packed]) -> Result<(), String> {
             packed.summary
         );
     }
-    pack::write_atomically(&sources_path, sources.as_bytes()).map_err(|error| error.to_string())
+    put(&sources_path, sources.as_bytes())
+}
+
+fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let written = OutputFile::create(path).and_then(|file| file.write(|out| out.write_all(bytes)));
+    written.map_err(|error| error.to_string())
 }

@@ -3,7 +3,6 @@
 //! Same input, same bytes: no clock, no random order, no map that iterates as it likes.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use super::bsc5::{self, BscError};
@@ -100,26 +99,6 @@ pub fn refresh_sources(sources: &str, packed: &[Packed]) -> Result<String, Catal
     }
 }
 
-/// Writes a file so that at every moment either the old one or the whole new one is there.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
-    let failed = |source| CatalogError::Write { path: path.to_owned(), source };
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let directory = directory.unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".nocturne-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Temporary files are private; what is kept should be as readable as any other file.
-        builder.permissions(fs::Permissions::from_mode(0o644));
-    }
-    let mut file = builder.tempfile_in(directory).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
-}
-
 fn read_text(directory: &Path, file: &str) -> Result<String, CatalogError> {
     let path = directory.join(file);
     fs::read_to_string(&path).map_err(|source| CatalogError::RawUnreadable { path, source })
@@ -144,17 +123,5 @@ mod tests {
         let other = Packed { file: MOON_FILE, ..packed };
         let message = refresh_sources(sources, &[other]).unwrap_err().to_string();
         assert!(message.contains("moon_albedo.bin"), "{message}");
-    }
-
-    #[test]
-    fn a_file_is_replaced_whole_and_nothing_else_is_left_behind() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("file");
-        write_atomically(&path, b"old").unwrap();
-        write_atomically(&path, b"new").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"new");
-        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
-        let nowhere = directory.path().join("missing/file");
-        assert!(matches!(write_atomically(&nowhere, b""), Err(CatalogError::Write { .. })));
     }
 }
