@@ -9,7 +9,7 @@ export NODEVICE_SELECT ?= 1
 .PHONY: sky test lint goldens picture pack clean
 
 sky: driver
-	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 32 --fov 100 \
+	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
 		--size 1920x1080 -o tonight.png
 
 # The core alone first: it must build and pass without a GPU, a window or a picture format.

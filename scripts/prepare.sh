@@ -32,8 +32,9 @@ fi
 if command -v apt-get >/dev/null 2>&1 && [ "$as_root" != none ]; then
     echo "Installing $packages: $purpose." >&2
     # shellcheck disable=SC2086  # the packages are words
-    if $as_root apt-get update -qq >&2 &&
-        $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >&2; then
+    if $as_root apt-get update -qq >/dev/null &&
+        $as_root env DEBIAN_FRONTEND=noninteractive \
+            apt-get install -y -qq --no-install-recommends $packages >/dev/null; then
         exit 0
     fi
     echo "The installation failed. Install $packages by hand: $purpose." >&2
