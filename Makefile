@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens picture pack clean
+.PHONY: sky test lint goldens pictures pack clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
@@ -32,9 +32,10 @@ lint:
 goldens: driver
 	NOCTURNE_GOLDENS=write cargo test --release --test golden
 
-# Draws the picture that the README opens with.
-picture: driver
+# Draws the pictures of the README.
+pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
+	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 
 # Packs the catalogues again from the raw tables.
 pack:

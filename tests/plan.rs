@@ -2,11 +2,12 @@
 
 use nocturne::catalog::Catalogs;
 use nocturne::light::night::Night;
-use nocturne::plan::FramePlan;
 use nocturne::plan::lay::lay;
 use nocturne::plan::ledger::Ledger;
+use nocturne::plan::{FramePlan, SKY_AZIMUTHS, skylight};
 use nocturne::scene::Scene;
-use nocturne::sky::SkyState;
+use nocturne::sky::{BodyState, SkyState};
+use nocturne::units::Xyzv;
 
 const FLAGSTAFF: &str = r#"
 nocturne_scene = 1
@@ -137,4 +138,59 @@ fn the_moon_hides_what_stands_behind_it() {
     let (plan, ledger, _) = laid(&scene);
     let brightest = plan.splats.iter().map(|s| s.illuminance.y).fold(0.0, f64::max);
     assert!(brightest < 1.0, "{brightest} lx is the Sun's: {ledger:?}");
+}
+
+/// The largest share that a source's light has of the rest of the sky, over both tables.
+fn largest_share(of: &[Xyzv], among: impl Fn(usize) -> f64) -> f64 {
+    of.iter().enumerate().map(|(texel, light)| light.y / among(texel)).fold(0.0, f64::max)
+}
+
+/// The first instant of a day, in steps of two minutes, that has a property.
+fn first(scene: &mut Scene, holds: impl Fn(&Night) -> bool) -> Night {
+    let setting = scene.setting().unwrap();
+    let stars = Vec::new();
+    for step in 0..720 {
+        let instant = setting.instant.plus_seconds(120.0 * f64::from(step)).unwrap();
+        let sky = SkyState::at(&instant, &setting.place, setting.tolerance).unwrap();
+        let night = Night::of(sky, stars.clone(), &scene.air);
+        if holds(&night) {
+            return night;
+        }
+    }
+    panic!("the day has no such instant");
+}
+
+#[test]
+fn what_is_skipped_could_not_have_been_seen() {
+    let altitude = |state: &BodyState| state.dir.altitude();
+    // The Sun at the floor of its table, against the dark sky.
+    let dusk = first(&mut at("2026-01-18T00:00:00Z"), |night| {
+        altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
+    });
+    let sky = skylight::sky_plan(&dusk, true, false).unwrap();
+    let sun = &sky.sun.as_ref().unwrap().luminance;
+    let share = largest_share(sun, |texel| sky.dark[texel / SKY_AZIMUTHS].y);
+    assert!(share < 0.02, "sunlit air at its floor: {share} of the dark sky");
+    // A bright Moon at the floor of its table, against the dark sky.
+    let moonset = first(&mut at("2026-08-24T04:00:00Z"), |night| {
+        altitude(&night.sky.moon.state) < skylight::MOON_SKY_FLOOR
+            && altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
+    });
+    let sky = skylight::sky_plan(&moonset, false, true).unwrap();
+    let moon = &sky.moon.as_ref().unwrap().luminance;
+    let share = largest_share(moon, |texel| sky.dark[texel / SKY_AZIMUTHS].y);
+    assert!(share < 0.02, "moonlit air at its floor: {share} of the dark sky");
+    // The full Moon of dusk against the twilight behind it.
+    let rising = first(&mut at("2026-08-28T01:30:00Z"), |night| {
+        altitude(&night.sky.sun) < skylight::MOON_SKY_SUN_LIMIT
+    });
+    let sky = skylight::sky_plan(&rising, true, true).unwrap();
+    let sun = &sky.sun.as_ref().unwrap().luminance;
+    // The Moon stands opposite the Sun, so that its columns count from the other end.
+    let opposite = |texel: usize| {
+        texel / SKY_AZIMUTHS * SKY_AZIMUTHS + SKY_AZIMUTHS - 1 - texel % SKY_AZIMUTHS
+    };
+    let moon = &sky.moon.as_ref().unwrap().luminance;
+    let share = largest_share(moon, |texel| sun[opposite(texel)].y);
+    assert!(share < 0.002, "moonlit air in twilight: {share} of the twilight");
 }

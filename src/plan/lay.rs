@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::catalog::{CatalogError, MoonMap};
+use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
 use crate::light::night::{Kind, LitObject, Night};
 use crate::scene::{Layers, Setting};
@@ -92,7 +93,6 @@ fn lay_sky(layers: &Layers, night: &Night, ledger: &mut Ledger) -> Result<SkyPla
 }
 
 fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
-    use crate::ephemeris::Body;
     match object.kind {
         Kind::Body(Body::Sun) => ("Sun", layers.sun),
         Kind::Body(Body::Moon) => ("Moon", layers.moon),
@@ -119,7 +119,8 @@ fn visible(
     if !wanted {
         return Err(SWITCHED_OFF);
     }
-    if layers.magnitude_limit.is_some_and(|limit| object.magnitude.0 > limit) {
+    let is_lamp = matches!(object.kind, Kind::Body(Body::Sun | Body::Moon));
+    if !is_lamp && layers.magnitude_limit.is_some_and(|limit| object.magnitude.0 > limit) {
         return Err(TOO_FAINT);
     }
     // A disc may show its upper limb when its centre has set.
@@ -127,9 +128,7 @@ fn visible(
     if object.apparent.altitude() + radius < Angle::ZERO {
         return Err(BELOW_HORIZON);
     }
-    if object.kind == Kind::Body(night.sky.sun.body)
-        || object.kind == Kind::Body(night.sky.moon.state.body)
-    {
+    if is_lamp {
         return Ok(());
     }
     let camera = &plan.camera;

@@ -12,12 +12,13 @@ use crate::units::{Angle, Xyzv};
 
 use super::{SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, SourceSky, sky_table_altitude};
 
-/// Below this altitude the Sun lights less of the sky than a hundredth of the natural night.
-pub const SUN_SKY_FLOOR: Angle = Angle::from_deg(-18.0);
-/// Below this altitude the full Moon lights less of the sky than a hundredth of the natural night.
-pub const MOON_SKY_FLOOR: Angle = Angle::from_deg(-8.0);
-/// Above this altitude of the Sun the light of the Moon is under a thousandth of the sky's.
-pub const MOON_SKY_SUN_LIMIT: Angle = Angle::from_deg(-3.0);
+/// Below this altitude of the Sun its light is nowhere over 2 % of the dark sky. At 18 degrees of
+/// twilight, where the zenith is dark, it is still a third of it above the Sun.
+pub const SUN_SKY_FLOOR: Angle = Angle::from_deg(-22.0);
+/// Below this altitude of the Moon its light is nowhere over 2 % of the dark sky.
+pub const MOON_SKY_FLOOR: Angle = Angle::from_deg(-10.0);
+/// Above this altitude of the Sun the light of the Moon is nowhere over 0.2 % of the Sun's.
+pub const MOON_SKY_SUN_LIMIT: Angle = Angle::from_deg(-1.0);
 
 /// Whether a source lights the sky, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +30,7 @@ pub enum Shines {
 /// Whether sunlight is scattered into this sky.
 pub fn sun_shines(night: &Night) -> Shines {
     match night.sky.sun.dir.altitude() < SUN_SKY_FLOOR {
-        true => Shines::No("the Sun is more than 18° below the horizon"),
+        true => Shines::No("the Sun is more than 22° below the horizon"),
         false => Shines::Yes,
     }
 }
@@ -37,9 +38,9 @@ pub fn sun_shines(night: &Night) -> Shines {
 /// Whether moonlight is scattered into this sky.
 pub fn moon_shines(night: &Night) -> Shines {
     if night.sky.moon.state.dir.altitude() < MOON_SKY_FLOOR {
-        Shines::No("the Moon is more than 8° below the horizon")
+        Shines::No("the Moon is more than 10° below the horizon")
     } else if night.sky.sun.dir.altitude() > MOON_SKY_SUN_LIMIT {
-        Shines::No("sunlight outshines moonlight a thousandfold")
+        Shines::No("sunlight outshines moonlight five hundredfold")
     } else {
         Shines::Yes
     }

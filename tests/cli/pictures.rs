@@ -152,7 +152,7 @@ fn statistics() {
     let run = nocturne(DARK).and(words(line)).done();
     let drawn = run.stdout.split_once("Drawn and skipped").expect("a ledger").1;
     for said in [
-        "the Sun is more than 18° below the horizon",
+        "the Sun is more than 22° below the horizon",
         "skipped: below the horizon",
         "skipped: out of view",
         "skipped: fainter than the magnitude limit",
