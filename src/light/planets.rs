@@ -8,6 +8,10 @@
 //! of the paper the answer goes on as gracefully as it can and says so in
 //! [`PlanetMagnitude::extrapolated`].
 //!
+//! From memory, not compared with the publication: the ranges of validity, some equation numbers, the
+//! source of the colours, and the phase law of Pluto. The magnitudes themselves are tested against
+//! the authors' own values.
+//!
 //! Colours: B-V of each planet (Cox 2000, *Allen's Astrophysical Quantities*, table 12.8); the
 //! spectrum is sunlight tilted by a power of the wavelength until it has that B-V. Bands of methane
 //! in Uranus and Neptune are not drawn.
