@@ -157,6 +157,12 @@ impl<F> Dir<F> {
     }
 }
 
+/// Names of the sixteen winds, from north through east: azimuths in steps of 22.5 degrees.
+pub const WINDS: [&str; 16] = [
+    "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW",
+    "NNW",
+];
+
 /// Azimuth and altitude belong to the two local frames alone.
 pub trait Local {}
 impl Local for Horizon {}

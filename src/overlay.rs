@@ -5,13 +5,10 @@
 use tiny_skia::{LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::camera::Camera;
-use crate::frame::{Apparent, Dir};
+use crate::frame::{Apparent, Dir, WINDS};
 use crate::image::Image;
 use crate::scene::Marks;
 use crate::units::Angle;
-
-/// Names of the eight main winds, from north through east.
-pub const WINDS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 
 /// Colour of the marks, sRGB: the dim red that eyes in the dark tolerate best.
 const COLOUR: [u8; 3] = [168, 72, 48];
@@ -91,7 +88,8 @@ fn draw_horizon(marks: &mut Pixmap, camera: &Camera, width_px: f32) {
 }
 
 fn draw_cardinal_points(marks: &mut Pixmap, camera: &Camera, size_px: f64) {
-    for (index, name) in WINDS.iter().enumerate() {
+    // Every other wind: the main ones and those half-way between.
+    for (index, name) in WINDS.iter().step_by(2).enumerate() {
         let azimuth_deg = 45.0 * index as f64;
         let Some(foot) = pixel_from_local(camera, azimuth_deg, 0.0) else { continue };
         if !camera.contains(foot) {

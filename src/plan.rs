@@ -11,7 +11,7 @@ pub mod skylight;
 
 use thiserror::Error;
 
-use crate::air::scattering::ScatteringError;
+use crate::air::scattering::{ScatteringError, SkyView};
 use crate::camera::Camera;
 use crate::catalog::CatalogError;
 use crate::frame::{Apparent, Dir};
@@ -74,8 +74,7 @@ pub struct SourceSky {
 
 /// The altitude of row `row` of a sky table.
 pub fn sky_table_altitude(row: usize) -> Angle {
-    let t = row as f64 / (SKY_ALTITUDES - 1) as f64;
-    Angle::from_deg(90.0 * t * t)
+    SkyView::elevation_of(row as f64 / (SKY_ALTITUDES - 1) as f64)
 }
 
 /// The azimuth from the source of column `column` of a sky table.
@@ -87,8 +86,7 @@ impl SkyPlan {
     /// The light of the sky in an apparent direction at or above the horizon, cd/m2: the twin of
     /// `skylight` in `shaders/sky.wgsl`.
     pub fn luminance(&self, dir: Dir<Apparent>) -> Xyzv {
-        let last_row = (SKY_ALTITUDES - 1) as f64;
-        let row = (dir.altitude().max(Angle::ZERO).deg() / 90.0).sqrt() * last_row;
+        let row = SkyView::row_of(dir.altitude()) * (SKY_ALTITUDES - 1) as f64;
         let r0 = (row as usize).min(SKY_ALTITUDES - 2);
         let up = row - r0 as f64;
         let mix = |a: Xyzv, b: Xyzv, t: f64| a * (1.0 - t) + b * t;

@@ -1,16 +1,10 @@
 //! Directions as people say them: a wind, degrees, the zenith, or an object.
 
-use crate::frame::{Apparent, Dir};
+use crate::frame::{Apparent, Dir, WINDS};
 use crate::light::night::Night;
 use crate::units::Angle;
 
 use super::error::CliError;
-
-/// Names of the sixteen winds, from north through east.
-pub const WINDS: [&str; 16] = [
-    "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW",
-    "NNW",
-];
 
 /// The wind nearest to an azimuth.
 pub fn wind(azimuth: Angle) -> &'static str {

@@ -20,11 +20,11 @@ pub type Tolerance = Angle;
 /// A theory of motion, cheapest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Tier {
-    /// The formulas of the paper, Sun and Moon only: arcminutes, a microsecond.
+    /// The formulas of the paper, Sun and Moon only: arcminutes. `benches/positions.rs` prints what a
+    /// place costs by each tier.
     Paper,
     /// Truncated ELP-2000/82 for the Moon, Simon et al. 1994 for the planets, Standish for Pluto:
-    /// arcseconds, five microseconds for the Moon, half a
-    /// microsecond for a planet.
+    /// arcseconds.
     Series,
 }
 

@@ -132,9 +132,12 @@ fn visible(
         return Ok(());
     }
     let camera = &plan.camera;
-    let Some(pixel) = camera.pixel_from_apparent(object.apparent) else {
-        return Err(OUT_OF_VIEW);
+    let pixel = match object.kind {
+        // The disc of a planet may reach into the picture when its centre does not.
+        Kind::Body(_) => camera.pixel_from_apparent(object.apparent),
+        Kind::Star(_) => repeats_px(camera, object.apparent).next(),
     };
+    let Some(pixel) = pixel else { return Err(OUT_OF_VIEW) };
     let peak = object.ground.y * SPLAT_PEAK / camera.pixel_solid_angle_sr(pixel);
     if peak < DROWNED * plan.sky.luminance(object.apparent).y {
         return Err(OUTSHONE);
@@ -179,16 +182,24 @@ fn lay_point(
     illuminance: Xyzv,
     splats: &mut Vec<Splat>,
 ) -> bool {
-    let Some([x, y]) = camera.pixel_from_apparent(apparent) else { return false };
     let before = splats.len();
-    let turns = camera.wrap_px().map_or([0.0; 3], |wrap| [0.0, -wrap, wrap]);
-    let repeats = if camera.wrap_px().is_some() { 3 } else { 1 };
-    for shift in &turns[..repeats] {
-        let reach = SPLAT_REACH_PX;
-        let inside = |v: f64, edge: u32| (-reach..f64::from(edge) + reach).contains(&v);
-        if inside(x + shift, camera.width_px) && inside(y, camera.height_px) {
-            splats.push(Splat { centre_px: [x + shift, y], illuminance });
-        }
-    }
+    let repeats = repeats_px(camera, apparent);
+    splats.extend(repeats.map(|centre_px| Splat { centre_px, illuminance }));
     splats.len() > before
+}
+
+/// Where a point of light touches the picture: once, or again a full turn of a panorama away.
+fn repeats_px(camera: &Camera, apparent: Dir<Apparent>) -> impl Iterator<Item = [f64; 2]> {
+    let inside =
+        |v: f64, edge: u32| (-SPLAT_REACH_PX..f64::from(edge) + SPLAT_REACH_PX).contains(&v);
+    let (width_px, height_px) = (camera.width_px, camera.height_px);
+    let turn_px = camera.wrap_px();
+    camera.pixel_from_apparent(apparent).into_iter().flat_map(move |[x, y]| {
+        let turns = [Some(0.0), turn_px.map(|turn| -turn), turn_px];
+        turns
+            .into_iter()
+            .flatten()
+            .map(move |shift| [x + shift, y])
+            .filter(move |&[x, y]| inside(x, width_px) && inside(y, height_px))
+    })
 }
