@@ -12,6 +12,7 @@ use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
 use nocturne::catalog::{Catalogs, MoonMap};
+use nocturne::ephemeris::Ephemeris;
 use nocturne::eye::Eye;
 use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
@@ -109,7 +110,12 @@ fn plan(
     let layers = Layers::default();
     let air = Atmosphere::default();
     let stars = catalogs.stars()?;
-    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
+    let sky = SkyState::at(
+        &Ephemeris::load(catalogs)?,
+        &setting.instant,
+        &setting.place,
+        setting.tolerance,
+    )?;
     let light = || Night::of(sky.clone(), stars.clone(), &air);
     let night = light();
     let lay = || lay(&setting, &layers, &night, || Ok(moon_map.clone()));

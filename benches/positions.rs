@@ -10,7 +10,7 @@ use std::time::Instant as Clock;
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
-use nocturne::ephemeris::{Body, EarthState, Tier, earth};
+use nocturne::ephemeris::{Body, EarthState, Ephemeris, Tier};
 use nocturne::frame::{Dir, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
@@ -101,15 +101,15 @@ fn observer(row: &Row) -> Observer {
 }
 
 fn earth_of(row: &Row, tier: Tier) -> EarthState {
-    earth(row.instant.tdb, tier).expect("within range")
+    Ephemeris::analytic().earth(row.instant.tdb, tier).expect("within range")
 }
 
 fn sky(row: &Row, tolerance: Angle) -> SkyState {
-    SkyState::at(&row.instant, &row.place, tolerance).expect("within range")
+    SkyState::at(&Ephemeris::analytic(), &row.instant, &row.place, tolerance).expect("within range")
 }
 
 fn apparent(body: Body, tier: Tier, observer: &Observer, earth: &EarthState) -> ApparentPlace {
-    ApparentPlace::of(body, tier, observer, earth).expect("within range")
+    ApparentPlace::of(&Ephemeris::analytic(), body, tier, observer, earth).expect("within range")
 }
 
 /// Largest error, arcseconds; largest part of its bound; number of places.

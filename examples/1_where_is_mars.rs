@@ -4,7 +4,8 @@
 
 use std::error::Error;
 
-use nocturne::ephemeris::Body;
+use nocturne::catalog::Catalogs;
+use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
 use nocturne::time;
@@ -15,9 +16,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let instant = time::to_instant(&time::parse("2026-12-24T23:00-07:00")?, None)?;
     let flagstaff = Place::new(35.198, -111.651, 2106.0)?;
 
+    let ephemeris = Ephemeris::load(&Catalogs::locate(None)?)?;
     // Say how far off an answer may be, and the cheapest theory that is good enough gives it.
     let tolerance = Angle::from_arcmin(2.0);
-    let sky = SkyState::at(&instant, &flagstaff, tolerance)?;
+    let sky = SkyState::at(&ephemeris, &instant, &flagstaff, tolerance)?;
 
     for body in [Body::Mars, Body::Moon, Body::Sun] {
         let Some(state) = sky.body(body) else { continue };

@@ -5,6 +5,7 @@
 use std::error::Error;
 
 use nocturne::air::Atmosphere;
+use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
 use nocturne::place::Place;
@@ -15,10 +16,12 @@ use nocturne::units::Angle;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let greenwich = Place::new(51.478, 0.0, 47.0)?;
+    // What is compiled in is good enough for colours.
+    let ephemeris = Ephemeris::analytic();
     // Around the equinox the Sun sets at six; five times of one evening.
     for clock in ["12:00", "17:00", "18:05", "18:45", "20:30"] {
         let instant = time::to_instant(&time::parse(&format!("2027-03-20T{clock}Z"))?, None)?;
-        let sky = SkyState::at(&instant, &greenwich, Angle::from_arcmin(10.0))?;
+        let sky = SkyState::at(&ephemeris, &instant, &greenwich, Angle::from_arcmin(10.0))?;
         let sun = sky.sun.dir;
         let night = Night::of(sky, Vec::new(), &Atmosphere::default());
         let (with_sun, with_moon) = (true, false);

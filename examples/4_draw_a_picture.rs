@@ -6,6 +6,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use nocturne::catalog::Catalogs;
+use nocturne::ephemeris::Ephemeris;
 use nocturne::export::{OutputFile, png};
 use nocturne::light::night::Night;
 use nocturne::plan::lay::lay;
@@ -26,7 +27,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::parse(SCENE)?;
     let setting = scene.setting()?;
     // Where everything stands, how bright it is, and where on the picture it falls.
-    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
+    let ephemeris = Ephemeris::load(&catalogs)?;
+    let sky = SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
     let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
     // The frame is in cd/m2, from the dark between the stars to the disc of the Sun.

@@ -1,7 +1,7 @@
 //! Where bodies and stars are, by theories of motion of known error.
 //!
-//! Whoever asks says how good the answer must be; [`choose`] finds the cheapest [`Tier`] that is
-//! good enough. [`geometric`] gives where a body is, [`apparent`] where it is seen from a place on
+//! Whoever asks says how good the answer must be; [`Ephemeris::choose`] finds the cheapest [`Tier`] that is
+//! good enough. [`Ephemeris::geometric`] gives where a body is, [`apparent`] where it is seen from a place on
 //! the turning Earth, [`stars`] does the same for a catalogue, [`orientation`] knows how the Earth
 //! stands, [`moon_orientation`] how the Moon does.
 //!
@@ -37,15 +37,19 @@ pub mod apparent;
 mod body;
 mod moon;
 pub mod moon_orientation;
+mod observation;
 pub mod orientation;
 mod paper;
 mod planets;
 mod polynomial;
 mod position;
 pub mod stars;
+mod tables;
 mod tier;
 
 pub use body::{Body, UnknownBody};
+pub use observation::{Observation, Seen};
 pub use planets::saturn_pole;
-pub use position::{EarthState, earth, geometric};
-pub use tier::{EphemerisError, Tier, Tolerance, choose};
+pub use position::EarthState;
+pub use tables::Ephemeris;
+pub use tier::{EphemerisError, Tier, Tolerance};

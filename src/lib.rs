@@ -6,6 +6,7 @@
 //! ```
 //! use nocturne::air::Atmosphere;
 //! use nocturne::catalog::Catalogs;
+//! use nocturne::ephemeris::Ephemeris;
 //! use nocturne::light::night::Night;
 //! use nocturne::place::Place;
 //! use nocturne::sky::SkyState;
@@ -15,9 +16,11 @@
 //! // A date and a place become directions ...
 //! let instant = time::to_instant(&time::parse("2026-01-18T06:00Z")?, None)?;
 //! let place = Place::new(35.198, -111.651, 2106.0)?;
-//! let sky = SkyState::at(&instant, &place, Angle::from_arcmin(1.0))?;
+//! let catalogs = Catalogs::locate(None)?;
+//! let ephemeris = Ephemeris::load(&catalogs)?;
+//! let sky = SkyState::at(&ephemeris, &instant, &place, Angle::from_arcmin(1.0))?;
 //! // ... directions become light ...
-//! let night = Night::of(sky, Catalogs::locate(None)?.stars()?, &Atmosphere::default());
+//! let night = Night::of(sky, catalogs.stars()?, &Atmosphere::default());
 //! let sirius = night.find("Sirius").expect("it is in the catalogue");
 //! assert!((sirius.magnitude.0 + 1.46).abs() < 0.01);
 //! // ... and the air takes its share.

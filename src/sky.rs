@@ -6,7 +6,7 @@ use crate::ephemeris::apparent::{ApparentPlace, Observer};
 use crate::ephemeris::moon_orientation::{Libration, moon_fixed_from_icrs};
 use crate::ephemeris::stars::StarReduction;
 use crate::ephemeris::{
-    Body, EarthState, EphemerisError, Tier, Tolerance, choose, earth, saturn_pole,
+    Body, Ephemeris, EphemerisError, Observation, Seen, Tier, Tolerance, saturn_pole,
 };
 use crate::frame::{Dir, Horizon, Icrs, MoonFixed, Rot};
 use crate::place::Place;
@@ -87,16 +87,16 @@ impl SkyState {
     /// The sky at an instant and a place, each body within `tolerance` if any tier is as good, else
     /// by the best there is.
     pub fn at(
+        ephemeris: &Ephemeris,
         instant: &Instant,
         place: &Place,
         tolerance: Tolerance,
     ) -> Result<SkyState, EphemerisError> {
-        let observer = Observer::at(instant, place);
-        let mut earths = Earths { observer: &observer, known: Vec::new() };
+        let mut observation = Observation::at(ephemeris, instant, place, tolerance);
+        let observer = *observation.observer();
         let mut seen = |body: Body| -> Result<(BodyState, ApparentPlace), EphemerisError> {
-            let (tier, error_bound) = choose(body, tolerance, instant.tdb)?;
-            let apparent = ApparentPlace::of(body, tier, &observer, &earths.by(tier)?)?;
-            Ok((body_state(body, tier, error_bound, &apparent, &observer), apparent))
+            let seen = observation.seen(body)?;
+            Ok((body_state(body, &seen, &observer), seen.place))
         };
         let (sun, _) = seen(Body::Sun)?;
         let (moon, moon_place) = seen(Body::Moon)?;
@@ -104,9 +104,7 @@ impl SkyState {
             .into_iter()
             .map(|planet| seen(planet).map(|(state, _)| state))
             .collect::<Result<Vec<_>, _>>()?;
-        // Aberration and parallax of stars ask for the velocity of the Earth: 0.5" by the paper.
-        let (star_tier, _) = choose(Body::Sun, tolerance, instant.tdb)?;
-        let stars = StarReduction::new(&observer, &earths.by(star_tier)?);
+        let stars = observation.stars()?;
         Ok(SkyState {
             instant: *instant,
             place: place.clone(),
@@ -134,30 +132,8 @@ impl SkyState {
     }
 }
 
-/// The Earth by each tier that somebody asked for.
-struct Earths<'a> {
-    observer: &'a Observer,
-    known: Vec<(Tier, EarthState)>,
-}
-
-impl Earths<'_> {
-    fn by(&mut self, tier: Tier) -> Result<EarthState, EphemerisError> {
-        if let Some((_, state)) = self.known.iter().find(|(known, _)| *known == tier) {
-            return Ok(*state);
-        }
-        let state = earth(self.observer.tdb, tier)?;
-        self.known.push((tier, state));
-        Ok(state)
-    }
-}
-
-fn body_state(
-    body: Body,
-    tier: Tier,
-    error_bound: Angle,
-    apparent: &ApparentPlace,
-    observer: &Observer,
-) -> BodyState {
+fn body_state(body: Body, seen: &Seen, observer: &Observer) -> BodyState {
+    let apparent = &seen.place;
     let to_observer = -apparent.from_observer.dir();
     let to_sun = if body == Body::Sun { to_observer } else { -apparent.from_sun.dir() };
     let distance_km = apparent.topocentric_distance_km;
@@ -171,8 +147,8 @@ fn body_state(
     });
     BodyState {
         body,
-        tier,
-        error_bound,
+        tier: seen.tier,
+        error_bound: seen.error_bound,
         dir: apparent.horizon,
         distance_km,
         sun_distance_km: apparent.from_sun.distance_km(),

@@ -7,7 +7,7 @@ use nocturne::catalog::Star;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
 use nocturne::ephemeris::moon_orientation::{Libration, axis_position_angle, moon_fixed_from_icrs};
 use nocturne::ephemeris::stars::StarReduction;
-use nocturne::ephemeris::{Body, EphemerisError, Tier, choose, earth, geometric};
+use nocturne::ephemeris::{Body, Ephemeris, EphemerisError, Tier};
 use nocturne::frame::{Dir, Horizon, Icrs, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
@@ -89,8 +89,14 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
         let observer = Observer::at(&instant, &de440_place(row));
         for tier in Tier::ALL.into_iter().filter(|tier| tier.knows(body)) {
             let bound = tier.bound(body, instant.tdb).unwrap();
-            let seen = ApparentPlace::of(body, tier, &observer, &earth(instant.tdb, tier).unwrap())
-                .unwrap();
+            let seen = ApparentPlace::of(
+                &Ephemeris::analytic(),
+                body,
+                tier,
+                &observer,
+                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
+            )
+            .unwrap();
             let geocentric: Dir<TrueOfDate> = row.dir("geo_ra_app_deg", "geo_dec_app_deg");
             let topocentric: Dir<TrueOfDate> = row.dir("topo_ra_app_deg", "topo_dec_app_deg");
             let horizon: Dir<Horizon> =
@@ -137,8 +143,14 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
         let truth: Dir<TrueOfDate> = row.dir("ra_deg", "dec_deg");
         for tier in Tier::ALL {
             let Some(bound) = tier.bound(body, instant.tdb) else { continue };
-            let seen = ApparentPlace::of(body, tier, &observer, &earth(instant.tdb, tier).unwrap())
-                .unwrap();
+            let seen = ApparentPlace::of(
+                &Ephemeris::analytic(),
+                body,
+                tier,
+                &observer,
+                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
+            )
+            .unwrap();
             let error = seen.geocentric.separation(truth);
             largest.note(format!("{body} {tier}, part of the bound"), error.rad() / bound.rad());
             assert!(error <= bound, "{body} {tier} at {tt:?}: {}\"", error.arcsec());
@@ -201,7 +213,10 @@ fn stars_stand_where_hipparcos_and_erfa_put_them() {
         let horizon: Dir<Horizon> =
             Dir::from_azimuth_altitude(row.angle("az_deg"), row.angle("alt_deg_airless"));
         for (tier, tolerance_arcsec) in [(Tier::Series, 0.05), (Tier::Paper, 0.2)] {
-            let stars = StarReduction::new(&observer, &earth(instant.tdb, tier).unwrap());
+            let stars = StarReduction::new(
+                &observer,
+                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
+            );
             let equatorial = observer.true_from_icrs * stars.icrs(&star);
             let local = stars.horizon_all(std::slice::from_ref(&star))[0];
             for (which, error) in [
@@ -227,8 +242,10 @@ fn the_moon_turns_as_its_integrated_librations_say() {
         }
         let instant = de440_instant(row);
         let observer = Observer::at(&instant, &de440_place(row));
-        let earth = earth(instant.tdb, Tier::Series).unwrap();
-        let seen = ApparentPlace::of(Body::Moon, Tier::Series, &observer, &earth).unwrap();
+        let earth = Ephemeris::analytic().earth(instant.tdb, Tier::Series).unwrap();
+        let seen =
+            ApparentPlace::of(&Ephemeris::analytic(), Body::Moon, Tier::Series, &observer, &earth)
+                .unwrap();
         let light_time_days = seen.geocentric_distance_km / LIGHT_SPEED_KM_S / DAY_S;
         let axes = moon_fixed_from_icrs(instant.tdb.plus_days(-light_time_days));
 
@@ -263,7 +280,13 @@ fn the_sky_agrees_with_the_table_on_phase_and_size() {
             return;
         }
         let place = de440_place(row);
-        let sky = SkyState::at(&de440_instant(row), &place, Angle::from_arcsec(60.0)).unwrap();
+        let sky = SkyState::at(
+            &Ephemeris::analytic(),
+            &de440_instant(row),
+            &place,
+            Angle::from_arcsec(60.0),
+        )
+        .unwrap();
         let moon = &sky.moon;
         assert_eq!(moon.state.tier, Tier::Series);
         let diameter_arcsec = 2.0 * moon.state.angular_radius.arcsec();
@@ -286,7 +309,7 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
     let tt = JulianDate::from_jd(2_451_545.0);
     let instant = instant(tt, tt.read_on(-63.83));
     let place = Place::new(35.0, -111.0, 2100.0).unwrap();
-    let sky = SkyState::at(&instant, &place, Angle::from_deg(1.0)).unwrap();
+    let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, Angle::from_deg(1.0)).unwrap();
     assert_eq!(sky.sun.tier, Tier::Paper);
     assert_eq!(sky.moon.state.tier, Tier::Paper);
     for body in Body::ALL {
@@ -307,13 +330,16 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
 #[test]
 fn the_cheapest_tier_that_is_good_enough_is_chosen() {
     let now = JulianDate::from_jd(2_460_000.5);
-    let chosen = |body, arcsec| choose(body, Angle::from_arcsec(arcsec), now).unwrap().0;
+    let chosen = |body, arcsec| {
+        Ephemeris::analytic().choose(body, Angle::from_arcsec(arcsec), now).unwrap().0
+    };
     assert_eq!(chosen(Body::Sun, 300.0), Tier::Paper);
     assert_eq!(chosen(Body::Sun, 30.0), Tier::Series);
     assert_eq!(chosen(Body::Moon, 300.0), Tier::Series);
     assert_eq!(chosen(Body::Mars, 3600.0), Tier::Series);
     // Nothing is as good as this: the best there is.
-    let (tier, bound) = choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
+    let (tier, bound) =
+        Ephemeris::analytic().choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
     assert_eq!((tier, Some(bound)), (Tier::Series, Tier::Series.bound(Body::Moon, now)));
 }
 
@@ -322,17 +348,19 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
     for jd in [2.0e5, 3.3e6, f64::NAN] {
         let far = JulianDate::from_jd(jd);
         assert!(matches!(
-            geometric(Body::Sun, far, Tier::Series),
+            Ephemeris::analytic().geometric(Body::Sun, far, Tier::Series),
             Err(EphemerisError::Date { .. })
         ));
-        assert!(choose(Body::Moon, Angle::from_deg(1.0), far).is_err());
+        assert!(Ephemeris::analytic().choose(Body::Moon, Angle::from_deg(1.0), far).is_err());
     }
-    let refused = geometric(Body::Mars, JulianDate::from_jd(2_451_545.0), Tier::Paper);
+    let refused =
+        Ephemeris::analytic().geometric(Body::Mars, JulianDate::from_jd(2_451_545.0), Tier::Paper);
     assert_eq!(
         refused.unwrap_err().to_string(),
         "Mars: the paper tier has no theory of it; use the series tier"
     );
-    let early = geometric(Body::Moon, JulianDate::from_jd(1_000_000.0), Tier::Paper);
+    let early =
+        Ephemeris::analytic().geometric(Body::Moon, JulianDate::from_jd(1_000_000.0), Tier::Paper);
     assert_eq!(
         early.unwrap_err().to_string(),
         "Moon: the year -1974.1 is outside -1000 to 4001, where the paper tier holds; choose a date \
@@ -344,7 +372,8 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
 fn the_earths_velocity_is_the_rate_of_its_position() {
     for tier in Tier::ALL {
         let at = JulianDate::from_jd(2_460_123.25);
-        let state = |seconds: f64| earth(at.plus_seconds(seconds), tier).unwrap();
+        let state =
+            |seconds: f64| Ephemeris::analytic().earth(at.plus_seconds(seconds), tier).unwrap();
         let rate: DVec3 = (state(600.0).position - state(-600.0).position).km() / 1200.0;
         assert!((rate - state(0.0).velocity_km_s).length() < 1e-4, "{tier}");
     }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use nocturne::air::Atmosphere;
 use nocturne::camera::Projection;
 use nocturne::catalog::Catalogs;
+use nocturne::ephemeris::Ephemeris;
 use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::eye::Eye;
 use nocturne::frame::{Dir, Horizon};
@@ -23,7 +24,9 @@ const CLOCK_ARCSEC: f64 = 1.0;
 
 fn described(scene: &Scene, stars: &Catalogs) -> Description {
     let setting = scene.setting().unwrap();
-    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance).unwrap();
+    let ephemeris = Ephemeris::load(stars).unwrap();
+    let sky =
+        SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance).unwrap();
     Description::of(&setting, &Night::of(sky, stars.stars().unwrap(), &scene.air))
 }
 

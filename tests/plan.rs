@@ -1,6 +1,7 @@
 //! What a plan holds and what it leaves out, and that the ledger says why. Needs no GPU.
 
 use nocturne::catalog::Catalogs;
+use nocturne::ephemeris::Ephemeris;
 use nocturne::light::night::Night;
 use nocturne::plan::lay::lay;
 use nocturne::plan::ledger::Ledger;
@@ -35,7 +36,9 @@ fn at(utc: &str) -> Scene {
 fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
     let catalogs = Catalogs::locate(None).unwrap();
     let setting = scene.setting().unwrap();
-    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance).unwrap();
+    let ephemeris = Ephemeris::load(&catalogs).unwrap();
+    let sky =
+        SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance).unwrap();
     let night = Night::of(sky, catalogs.stars().unwrap(), &scene.air);
     let mut asked = false;
     let moon_map = || {
@@ -151,7 +154,8 @@ fn first(scene: &mut Scene, holds: impl Fn(&Night) -> bool) -> Night {
     let stars = Vec::new();
     for step in 0..720 {
         let instant = setting.instant.plus_seconds(120.0 * f64::from(step)).unwrap();
-        let sky = SkyState::at(&instant, &setting.place, setting.tolerance).unwrap();
+        let sky = SkyState::at(&Ephemeris::analytic(), &instant, &setting.place, setting.tolerance)
+            .unwrap();
         let night = Night::of(sky, stars.clone(), &scene.air);
         if holds(&night) {
             return night;

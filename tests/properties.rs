@@ -5,7 +5,7 @@ use nocturne::air::Atmosphere;
 use nocturne::air::refraction::Refraction;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
 use nocturne::catalog::{MoonMap, Star};
-use nocturne::ephemeris::Body;
+use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::{Apparent, Dir, Horizon, Local, View};
 use nocturne::image::Image;
@@ -190,9 +190,9 @@ proptest! {
         place in places(),
         tolerance in (-1.0..5.0f64).prop_map(|log| Angle::from_arcsec(10f64.powf(log))),
     ) {
-        let sky = SkyState::at(&instant, &place, tolerance).unwrap();
+        let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance).unwrap();
         check_sky(&sky);
-        let soon = SkyState::at(&instant.plus_seconds(1e-3).unwrap(), &place, tolerance).unwrap();
+        let soon = SkyState::at(&Ephemeris::analytic(), &instant.plus_seconds(1e-3).unwrap(), &place, tolerance).unwrap();
         let (jump, which) = largest_jump(&sky, &soon);
         prop_assert!(jump.arcsec() < JUMP_ARCSEC, "{which}");
         // A millisecond is 0.015" of the turning sky.
@@ -242,7 +242,15 @@ fn nothing_jumps_where_calendars_clocks_and_tables_change() {
     for (latitude, longitude) in places {
         let place = Place::new(latitude, longitude, 0.0).unwrap();
         for tolerance_arcsec in [1.0, 130.0, 800.0] {
-            let sky = |at| SkyState::at(&at, &place, Angle::from_arcsec(tolerance_arcsec)).unwrap();
+            let sky = |at| {
+                SkyState::at(
+                    &Ephemeris::analytic(),
+                    &at,
+                    &place,
+                    Angle::from_arcsec(tolerance_arcsec),
+                )
+                .unwrap()
+            };
             for pair in seams.iter().flat_map(|&seam| around(seam)) {
                 let (jump, which) = largest_jump(&sky(pair[0]), &sky(pair[1]));
                 assert!(jump.arcsec() < JUMP_ARCSEC, "{:?}: {which}", pair[0]);
@@ -330,7 +338,7 @@ fn scenes() -> impl Strategy<Value = SmallScene> {
 
 fn planned((instant, place, camera, air, layers, stars): SmallScene) -> FramePlan {
     let tolerance = camera.pixel_angle() * 0.1;
-    let sky = SkyState::at(&instant, &place, tolerance).unwrap();
+    let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance).unwrap();
     let night = Night::of(sky, stars, &air);
     let map = MoonMap { width: 8, height: 4, reff: vec![[0.1, 0.12, 0.08]; 32] };
     let setting = Setting { instant, place, camera, tolerance };

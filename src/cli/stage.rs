@@ -2,7 +2,7 @@
 
 use crate::air::Atmosphere;
 use crate::catalog::Catalogs;
-use crate::ephemeris::EphemerisError;
+use crate::ephemeris::{Ephemeris, EphemerisError};
 use crate::light::night::Night;
 use crate::place::Place;
 use crate::sky::SkyState;
@@ -34,8 +34,9 @@ pub fn instant(at: &str, place: &Place) -> Result<Instant, CliError> {
 /// Now, if it is dark; the coming nightfall, if it is not; the darkest moment of the next day where
 /// the Sun does not set far enough.
 fn tonight(now: Instant, place: &Place) -> Result<Instant, CliError> {
+    let ephemeris = Ephemeris::analytic();
     let altitude = |instant: &Instant| -> Result<Angle, EphemerisError> {
-        Ok(SkyState::at(instant, place, DUSK_TOLERANCE)?.sun.dir.altitude())
+        Ok(SkyState::at(&ephemeris, instant, place, DUSK_TOLERANCE)?.sun.dir.altitude())
     };
     let mut darkest = (now, altitude(&now)?);
     for step in 0..=DAY_STEPS {
@@ -59,6 +60,7 @@ pub fn night(
     air: &Atmosphere,
     catalogs: &Catalogs,
 ) -> Result<Night, CliError> {
-    let sky = SkyState::at(instant, place, tolerance)?;
+    let ephemeris = Ephemeris::load(catalogs)?;
+    let sky = SkyState::at(&ephemeris, instant, place, tolerance)?;
     Ok(Night::of(sky, catalogs.stars()?, air))
 }

@@ -7,14 +7,15 @@
 //!
 //! *Omitted.* The Sun's potential in the aberration and the delay of light by gravity (below
 //! 0.000001"), deflection by Jupiter (0.016" at its limb), the motion of the Sun about the
-//! barycentre (0.011" of aberration, see [`crate::ephemeris::earth`]), polar motion (0.6" at most),
+//! barycentre (0.011" of aberration, see [`Ephemeris::earth`]), polar motion (0.6" at most),
 //! air.
 
 use glam::DVec3;
 
 use super::body::Body;
 use super::orientation::Orientation;
-use super::position::{self, EarthState};
+use super::position::EarthState;
+use super::tables::Ephemeris;
 use super::tier::{EphemerisError, Tier};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
@@ -83,14 +84,15 @@ pub struct ApparentPlace {
 impl ApparentPlace {
     /// `earth` is the Earth at the observer's time by the same tier.
     pub fn of(
+        ephemeris: &Ephemeris,
         body: Body,
         tier: Tier,
         observer: &Observer,
         earth: &EarthState,
     ) -> Result<ApparentPlace, EphemerisError> {
         let tdb = observer.tdb;
-        let now = position::geometric(body, tdb, tier)?;
-        let (retarded, light_time_s) = light_left(body, tier, tdb, now, earth.position);
+        let now = ephemeris.geometric(body, tdb, tier)?;
+        let (retarded, light_time_s) = light_left(ephemeris, body, tier, tdb, now, earth.position);
         let from_earth = retarded - earth.position;
         // The observer is up to 21 ms of light closer or farther: the body moves on for that time.
         let displacement_per_s = (now - retarded) * light_time_s.recip();
@@ -100,7 +102,7 @@ impl ApparentPlace {
         let from_observer = moved - earth.position - observer.position;
 
         // Not barycentric: the Sun stays where it is for as long as light travels.
-        let sun = position::unchecked(Body::Sun, tdb, tier);
+        let sun = ephemeris.unchecked(Body::Sun, tdb, tier);
         let earth_from_sun = (earth.position - sun).km();
         let observer_from_sun = earth_from_sun + observer.position.km();
         let seen = |from: Pos<Icrs>, origin_from_sun: DVec3, velocity_km_s: DVec3| {
@@ -128,6 +130,7 @@ impl ApparentPlace {
 
 /// Where the body was when the light left that arrives now, and the time it took.
 fn light_left(
+    ephemeris: &Ephemeris,
     body: Body,
     tier: Tier,
     tdb: JulianDate<Tdb>,
@@ -138,7 +141,7 @@ fn light_left(
     let (mut retarded, mut light_time_s) = (now, light_time(now));
     // Each round gains a factor of 10^4, the ratio of light to planets.
     for _ in 0..3 {
-        retarded = position::unchecked(body, tdb.plus_days(-light_time_s / DAY_S), tier);
+        retarded = ephemeris.unchecked(body, tdb.plus_days(-light_time_s / DAY_S), tier);
         let corrected_s = light_time(retarded);
         let change_s = corrected_s - light_time_s;
         light_time_s = corrected_s;

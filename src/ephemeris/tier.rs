@@ -149,29 +149,6 @@ impl Tier {
     }
 }
 
-/// The cheapest tier whose error stays within the tolerance, else the best there is; with the bound
-/// of its error.
-pub fn choose(
-    body: Body,
-    tolerance: Tolerance,
-    tdb: JulianDate<Tdb>,
-) -> Result<(Tier, Angle), EphemerisError> {
-    // The series know every body and hold longest: whom they refuse, nobody serves.
-    Tier::Series.check(body, tdb)?;
-    let mut best = (Tier::Series, Angle::from_deg(180.0));
-    for tier in Tier::ALL {
-        if let Some(bound) = tier.bound(body, tdb) {
-            if bound <= tolerance {
-                return Ok((tier, bound));
-            }
-            if bound < best.1 {
-                best = (tier, bound);
-            }
-        }
-    }
-    Ok(best)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,6 +5,7 @@
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use nocturne::catalog::Catalogs;
+use nocturne::ephemeris::Ephemeris;
 use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
 use nocturne::plan::FramePlan;
@@ -63,7 +64,12 @@ pub fn check(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failed
 pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed> {
     let catalogs = Catalogs::locate(None)?;
     let setting = scene.setting()?;
-    let sky = SkyState::at(&setting.instant, &setting.place, setting.tolerance)?;
+    let sky = SkyState::at(
+        &Ephemeris::load(&catalogs)?,
+        &setting.instant,
+        &setting.place,
+        setting.tolerance,
+    )?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
     let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
     Ok((plan, ledger, setting, night))

@@ -1,0 +1,81 @@
+//! One instant at one place: what all bodies share, reckoned once.
+
+use super::apparent::{ApparentPlace, Observer};
+use super::body::Body;
+use super::position::EarthState;
+use super::stars::StarReduction;
+use super::tables::Ephemeris;
+use super::tier::{EphemerisError, Tier, Tolerance};
+use crate::place::Place;
+use crate::time::Instant;
+use crate::units::Angle;
+
+/// An observer who asks for one body after the other.
+#[derive(Debug)]
+pub struct Observation<'a> {
+    ephemeris: &'a Ephemeris,
+    tolerance: Tolerance,
+    observer: Observer,
+    /// The Earth by each tier that somebody asked for.
+    earths: Vec<(Tier, EarthState)>,
+}
+
+/// Where a body is seen, and how well that is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    pub place: ApparentPlace,
+    /// The theory that was good enough.
+    pub tier: Tier,
+    /// Bound of the error of the direction.
+    pub error_bound: Angle,
+}
+
+impl<'a> Observation<'a> {
+    /// Each body will be within `tolerance` if any tier is as good, else by the best there is.
+    pub fn at(
+        ephemeris: &'a Ephemeris,
+        instant: &Instant,
+        place: &Place,
+        tolerance: Tolerance,
+    ) -> Observation<'a> {
+        let observer = Observer::at(instant, place);
+        Observation { ephemeris, tolerance, observer, earths: Vec::new() }
+    }
+
+    pub fn observer(&self) -> &Observer {
+        &self.observer
+    }
+
+    /// Where a body is seen.
+    ///
+    /// # Errors
+    ///
+    /// A date that no theory of the body serves.
+    pub fn seen(&mut self, body: Body) -> Result<Seen, EphemerisError> {
+        let (tier, error_bound) = self.ephemeris.choose(body, self.tolerance, self.observer.tdb)?;
+        let earth = self.earth(tier)?;
+        let place = ApparentPlace::of(self.ephemeris, body, tier, &self.observer, &earth)?;
+        Ok(Seen { place, tier, error_bound })
+    }
+
+    /// What all stars have in common.
+    ///
+    /// # Errors
+    ///
+    /// A date that no theory of the Earth serves.
+    pub fn stars(&mut self) -> Result<StarReduction, EphemerisError> {
+        // Aberration and parallax of stars ask for the velocity of the Earth: 0.5" by the paper.
+        let (tier, _) = self.ephemeris.choose(Body::Sun, self.tolerance, self.observer.tdb)?;
+        let earth = self.earth(tier)?;
+        Ok(StarReduction::new(&self.observer, &earth))
+    }
+
+    fn earth(&mut self, tier: Tier) -> Result<EarthState, EphemerisError> {
+        if let Some((_, state)) = self.earths.iter().find(|(known, _)| *known == tier) {
+            return Ok(*state);
+        }
+        let state = self.ephemeris.earth(self.observer.tdb, tier)?;
+        self.earths.push((tier, state));
+        Ok(state)
+    }
+}
