@@ -101,14 +101,13 @@ impl ApparentPlace {
         let moved = retarded + displacement_per_s * (light_time_s - topocentric_light_time_s);
         let from_observer = moved - earth.position - observer.position;
 
-        // Not barycentric: the Sun stays where it is for as long as light travels.
-        let sun = ephemeris.unchecked(Body::Sun, tdb, tier);
-        let earth_from_sun = (earth.position - sun).km();
+        // The Sun drifts at 16 m/s: while light crosses the orbit of the Earth it is taken to stand.
+        let earth_from_sun = (earth.position - earth.sun).km();
         let observer_from_sun = earth_from_sun + observer.position.km();
         let seen = |from: Pos<Icrs>, origin_from_sun: DVec3, velocity_km_s: DVec3| {
             let dir = match body {
                 Body::Sun => from.dir(),
-                _ => deflect(from.dir(), (moved - sun).dir(), origin_from_sun),
+                _ => deflect(from.dir(), (moved - earth.sun).dir(), origin_from_sun),
             };
             aberrate(dir, velocity_km_s)
         };
@@ -123,7 +122,7 @@ impl ApparentPlace {
             horizon: observer.horizon_from_icrs * topocentric,
             from_observer,
             from_earth,
-            from_sun: moved - sun,
+            from_sun: moved - earth.sun,
         })
     }
 }

@@ -9,13 +9,16 @@ use crate::frame::{Icrs, Pos};
 use crate::time::{JulianDate, Tdb};
 use crate::units::DAY_S;
 
-/// Where the Earth is, and how fast it moves.
+/// Where the Earth is, how fast it moves, and where the Sun is meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EarthState {
     /// From the same origin as [`crate::ephemeris::Ephemeris::geometric`].
     pub position: Pos<Icrs>,
     /// Kilometres per second, ICRS axes.
     pub velocity_km_s: DVec3,
+    /// The Sun at the same moment, from the same origin: the origin itself by the analytic tiers,
+    /// off it by up to two radii of the Sun where the origin is the barycentre.
+    pub sun: Pos<Icrs>,
 }
 
 /// Position and velocity of the centre of the Earth, also a little outside the range.
@@ -29,6 +32,7 @@ pub(super) fn earth(tdb: JulianDate<Tdb>, tier: Tier) -> EarthState {
     EarthState {
         position: earth_unchecked(tdb, tier),
         velocity_km_s: (after - before).km() / (2.0 * step_days * DAY_S),
+        sun: Pos::ORIGIN,
     }
 }
 

@@ -67,6 +67,8 @@ pub fn direction(star: &Star, tdb: JulianDate<Tdb>) -> Dir<Icrs> {
 pub struct StarReduction {
     observer: Observer,
     years: f64,
+    /// From the origin of the theory: the barycentre, or the Sun where that stands for it.
+    observer_from_origin_km: DVec3,
     observer_from_sun_km: DVec3,
     velocity_km_s: DVec3,
 }
@@ -77,7 +79,8 @@ impl StarReduction {
         StarReduction {
             observer: *observer,
             years: observer.tdb.days_since_j2000() / JULIAN_YEAR_DAYS,
-            observer_from_sun_km: earth.position.km() + observer.position.km(),
+            observer_from_origin_km: (earth.position + observer.position).km(),
+            observer_from_sun_km: (earth.position - earth.sun + observer.position).km(),
             velocity_km_s: earth.velocity_km_s + observer.velocity_km_s,
         }
     }
@@ -85,7 +88,7 @@ impl StarReduction {
     /// Apparent topocentric direction in ICRS axes: aberration and parallax, no air.
     pub fn icrs(&self, star: &Star) -> Dir<Icrs> {
         let moved = star.dir_j2000.vector() + motion_per_year(star) * self.years;
-        let parallactic = self.observer_from_sun_km * (parallax(star).rad() / AU_KM);
+        let parallactic = self.observer_from_origin_km * (parallax(star).rad() / AU_KM);
         let dir = Dir::from_vector(moved - parallactic);
         // A star is so far that it stands in the same direction from the Sun.
         aberrate(deflect(dir, dir, self.observer_from_sun_km), self.velocity_km_s)
