@@ -14,13 +14,12 @@ use glam::DVec3;
 
 use super::body::Body;
 use super::orientation::Orientation;
-use super::position::EarthState;
-use super::tables::Ephemeris;
+use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
 use crate::time::{Instant, JulianDate, Tdb};
-use crate::units::{DAY_S, LIGHT_SPEED_KM_S};
+use crate::units::LIGHT_SPEED_KM_S;
 
 /// Rotation of the Earth, radians per second (IERS Conventions 2010, table 1.2).
 const EARTH_ROTATION_RAD_S: f64 = 7.292_115e-5;
@@ -90,8 +89,7 @@ impl ApparentPlace {
         observer: &Observer,
         earth: &EarthState,
     ) -> Result<ApparentPlace, EphemerisError> {
-        let now = ephemeris.geometric(body, observer.tdb, tier)?;
-        let path = LightPath::to(earth.position, body, tier, ephemeris, observer.tdb, now);
+        let path = LightPath::to(earth.position, body, tier, ephemeris, observer.tdb)?;
         let from_earth = path.left_at(path.light_time_s) - earth.position;
         // The observer is up to 21 ms of light closer or farther: the body moves on for that time.
         let topocentric_light_time_s =
@@ -136,18 +134,17 @@ struct LightPath {
 }
 
 impl LightPath {
-    /// `now` is the body at the time of arrival.
+    /// `tdb` is the time of arrival.
     fn to(
         earth: Pos<Icrs>,
         body: Body,
         tier: Tier,
         ephemeris: &Ephemeris,
         tdb: JulianDate<Tdb>,
-        now: Pos<Icrs>,
-    ) -> LightPath {
+    ) -> Result<LightPath, EphemerisError> {
         let light_time_s = |from: Pos<Icrs>| (from - earth).distance_km() / LIGHT_SPEED_KM_S;
-        let estimate_s = light_time_s(now);
-        let retarded = ephemeris.unchecked(body, tdb.plus_days(-estimate_s / DAY_S), tier);
+        let (now, retarded, estimate_s) =
+            ephemeris.now_and_before(body, tdb, tier, light_time_s)?;
         let velocity_km_s = (now - retarded) * estimate_s.recip();
         let mut path = LightPath { retarded, velocity_km_s, estimate_s, light_time_s: estimate_s };
         // Each round gains a factor of 10^4, the ratio of light to planets. The estimate is wrong by
@@ -155,7 +152,7 @@ impl LightPath {
         for _ in 0..2 {
             path.light_time_s = light_time_s(path.left_at(path.light_time_s));
         }
-        path
+        Ok(path)
     }
 
     /// Where the body was so many seconds before the light arrives, near the estimate.

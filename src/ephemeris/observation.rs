@@ -2,9 +2,8 @@
 
 use super::apparent::{ApparentPlace, Observer};
 use super::body::Body;
-use super::position::EarthState;
 use super::stars::StarReduction;
-use super::tables::Ephemeris;
+use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::place::Place;
 use crate::time::Instant;

@@ -12,7 +12,7 @@
 use glam::DVec3;
 
 use super::apparent::{Observer, aberrate, deflect};
-use super::position::EarthState;
+use super::tables::EarthState;
 use crate::catalog::Star;
 use crate::frame::{Dir, Horizon, Icrs};
 use crate::time::{JulianDate, Tdb};
