@@ -52,5 +52,6 @@ mod tier;
 pub use body::{Body, UnknownBody};
 pub use observation::{Observation, Seen};
 pub use planets::saturn_pole;
+pub use resampled::Depth;
 pub use tables::{EarthState, Ephemeris};
 pub use tier::{EphemerisError, Tier, Tolerance};

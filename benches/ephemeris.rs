@@ -1,16 +1,20 @@
 //! How good each theory is and what it costs: errors against DE440 beside nanoseconds.
 //!
-//! `cargo bench --bench positions --no-default-features`. Errors are the largest of the topocentric
-//! places in `tests/truth/ephemeris_de440.csv`, 1550 to 2650, and the largest part that they take of
-//! the bound that the theory states for their dates. Times are medians; ratios are to the Sun of the
-//! paper in the same run, so that runs on different machines compare.
+//! `cargo bench --bench ephemeris --no-default-features --features cli`; with `-- --json` a few
+//! costs alone, for `scripts/peers.py`. Errors are the largest of the topocentric places in
+//! `tests/truth/ephemeris_de440.csv`, 1550 to 2650, and the largest part that they take of the bound
+//! that the theory states for their dates. Times are medians over random dates of that table, tables
+//! warm; ratios are to the Sun of the paper in the same run, so that runs on different machines
+//! compare.
 
+use std::env;
 use std::hint::black_box;
+use std::sync::LazyLock;
 use std::time::Instant as Clock;
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
-use nocturne::ephemeris::{Body, EarthState, Ephemeris, Tier};
+use nocturne::ephemeris::{Body, Depth, EarthState, Ephemeris, Observation, Tier};
 use nocturne::frame::{Dir, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
@@ -21,9 +25,14 @@ const DE440: &str = include_str!("../tests/truth/ephemeris_de440.csv");
 /// Repetitions whose median is taken.
 const REPETITIONS: usize = 501;
 /// Calls in each: too short together to be interrupted often, long enough for the clock.
-const CALLS: usize = 16;
-const COARSE: Angle = Angle::from_deg(1.0);
-const BEST: Angle = Angle::from_arcsec(0.1);
+const CALLS: usize = 64;
+const FINE: Angle = Angle::from_arcsec(0.01);
+const BEST: Angle = Angle::from_arcsec(0.001);
+
+static EPHEMERIS: LazyLock<Ephemeris> = LazyLock::new(|| {
+    let catalogs = Catalogs::locate(None).expect("the catalogues of the repository");
+    Ephemeris::load(&catalogs, BEST).expect("the tables of the repository")
+});
 
 /// A body seen from a place at an instant, and where DE440 has it.
 struct Row {
@@ -35,16 +44,19 @@ struct Row {
 
 fn main() {
     let rows = rows();
+    if env::args().any(|argument| argument == "--json") {
+        return print_json(&rows);
+    }
     let baseline_ns = costs(&rows, Body::Sun, Tier::Paper).0;
     println!("One apparent place: alone, with the theory of the Earth; and where others share it");
-    println!("body     tier    error, arcsec  of bound  alone, ns   ratio  sharing, ns  places");
+    println!("body     tier             error, arcsec  of bound  alone, ns   ratio  sharing, ns  places");
     for tier in Tier::ALL {
         for body in Body::ALL.into_iter().filter(|&body| tier.knows(body)) {
             let (error, part, places) = worst(&rows, body, tier);
             let (alone_ns, sharing_ns) = costs(&rows, body, tier);
             let ratio = alone_ns / baseline_ns;
             println!(
-                "{:8} {:7} {error:13.2} {:8.0}% {alone_ns:10.0} {ratio:7.2} {sharing_ns:12.0} {places:7}",
+                "{:8} {:16} {error:13.5} {:8.0}% {alone_ns:10.0} {ratio:7.2} {sharing_ns:12.0} {places:7}",
                 body.to_string(),
                 tier.to_string(),
                 part * 100.0,
@@ -53,25 +65,63 @@ fn main() {
     }
 
     let line = |what: &str, ns: f64| {
-        println!("{what:42} {ns:10.0} {:7.2}", ns / baseline_ns);
+        println!("{what:46} {ns:10.0} {:7.2}", ns / baseline_ns);
     };
-    println!("\nWhat all share, and the whole                      ns   ratio");
-    line("observer: precession, nutation, rotation", each(&rows, observer));
+    println!("\nWhat all share, and the whole                          ns   ratio");
+    line("instant: UTC and TDB from TT and UT1", each(&rows, instant));
+    line("observer: precession, nutation, rotation", each(&rows, |row| observer(row, FINE)));
+    line("the same by IAU 2000A in full", each(&rows, |row| observer(row, Angle::ZERO)));
     for tier in Tier::ALL {
         let name = format!("Earth, position and velocity, {tier}");
-        line(&name, each(&rows, |row| earth_of(row, tier)));
+        line(&name, each(&rows, |row| earth(row, tier)));
     }
-    for (name, tolerance) in [("to 1 degree", COARSE), ("the best there is", BEST)] {
-        line(&format!("SkyState::at, {name}"), each(&rows, |row| sky(row, tolerance)));
-    }
+    line("shared by all to 0.01\": instant, observer, Earth", shared_ns(&rows));
+    line("Sun, Moon and eight planets to 0.01\"", all_ns(&rows));
+    line("SkyState::at to 0.01\"", each(&rows, |row| sky(row, FINE)));
     match Catalogs::locate(None).and_then(|catalogs| catalogs.stars()) {
         Ok(stars) => {
-            let sky = sky(&rows[0], BEST);
+            let sky = sky(&rows[0], FINE);
             let ns = median_ns(1, || drop(black_box(sky.stars(black_box(&stars)))));
-            line(&format!("SkyState::stars, each of {}", stars.len()), ns / stars.len() as f64);
+            line(&format!("stars to the horizon frame, each of {}", stars.len()), ns / stars.len() as f64);
         }
         Err(error) => println!("no stars: {error}"),
     }
+}
+
+/// What other engines are compared with.
+fn print_json(rows: &[Row]) {
+    let tier = fine_tier();
+    let (moon, mars) = (costs(rows, Body::Moon, tier), costs(rows, Body::Mars, tier));
+    let shared_ns = shared_ns(rows);
+    println!(
+        "{{\"shared_ns\": {shared_ns:.0}, \"moon_ns\": {:.0}, \"mars_ns\": {:.0}, \
+         \"moon_alone_ns\": {:.0}, \"mars_alone_ns\": {:.0}, \"ten_bodies_ns\": {:.0}}}",
+        moon.1,
+        mars.1,
+        shared_ns + moon.1,
+        shared_ns + mars.1,
+        all_ns(rows),
+    );
+}
+
+/// What an observation costs before the first body is asked: all but the body.
+fn shared_ns(rows: &[Row]) -> f64 {
+    each(rows, |row| {
+        let instant = instant(row);
+        (Observer::at(&EPHEMERIS, &instant, &row.place, FINE), earth(row, fine_tier()))
+    })
+}
+
+/// All bodies of one instant and one place, from the two dates on.
+fn all_ns(rows: &[Row]) -> f64 {
+    each(rows, |row| {
+        let mut observation = Observation::at(&EPHEMERIS, &instant(row), &row.place, FINE);
+        Body::ALL.map(|body| observation.seen(body).expect("within range").place.horizon)
+    })
+}
+
+fn fine_tier() -> Tier {
+    Tier::De440(Depth::Hundredth)
 }
 
 fn rows() -> Vec<Row> {
@@ -96,27 +146,32 @@ fn rows() -> Vec<Row> {
     lines.filter_map(row).collect()
 }
 
-fn observer(row: &Row) -> Observer {
-    Observer::at(&row.instant, &row.place)
+/// As a program makes it that was given TT and UT1.
+fn instant(row: &Row) -> Instant {
+    Instant::from_tt_ut1(row.instant.tt, row.instant.ut1).expect("within range")
 }
 
-fn earth_of(row: &Row, tier: Tier) -> EarthState {
-    Ephemeris::analytic().earth(row.instant.tdb, tier).expect("within range")
+fn observer(row: &Row, tolerance: Angle) -> Observer {
+    Observer::at(&EPHEMERIS, &row.instant, &row.place, tolerance)
+}
+
+fn earth(row: &Row, tier: Tier) -> EarthState {
+    EPHEMERIS.earth(row.instant.tdb, tier).expect("within range")
 }
 
 fn sky(row: &Row, tolerance: Angle) -> SkyState {
-    SkyState::at(&Ephemeris::analytic(), &row.instant, &row.place, tolerance).expect("within range")
+    SkyState::at(&EPHEMERIS, &row.instant, &row.place, tolerance).expect("within range")
 }
 
 fn apparent(body: Body, tier: Tier, observer: &Observer, earth: &EarthState) -> ApparentPlace {
-    ApparentPlace::of(&Ephemeris::analytic(), body, tier, observer, earth).expect("within range")
+    ApparentPlace::of(&EPHEMERIS, body, tier, observer, earth).expect("within range")
 }
 
 /// Largest error, arcseconds; largest part of its bound; number of places.
 fn worst(rows: &[Row], body: Body, tier: Tier) -> (f64, f64, usize) {
     let (mut error, mut part, mut places) = (0.0f64, 0.0f64, 0);
     for row in rows.iter().filter(|row| row.body == body) {
-        let seen = apparent(body, tier, &observer(row), &earth_of(row, tier));
+        let seen = apparent(body, tier, &observer(row, BEST), &earth(row, tier));
         let off = seen.topocentric.separation(row.truth);
         let bound = tier.bound(body, row.instant.tdb).expect("within range");
         error = error.max(off.arcsec());
@@ -128,10 +183,10 @@ fn worst(rows: &[Row], body: Body, tier: Tier) -> (f64, f64, usize) {
 
 /// Nanoseconds of one apparent place at the dates of all rows: with its Earth, and with that given.
 fn costs(rows: &[Row], body: Body, tier: Tier) -> (f64, f64) {
-    let observed: Vec<_> = rows.iter().map(|row| (observer(row), row)).collect();
+    let observed: Vec<_> = rows.iter().map(|row| (observer(row, BEST), row)).collect();
     let with_earth =
-        |(observer, row): &(Observer, &Row)| apparent(body, tier, observer, &earth_of(row, tier));
-    let given: Vec<_> = rows.iter().map(|row| (observer(row), earth_of(row, tier))).collect();
+        |(observer, row): &(Observer, &Row)| apparent(body, tier, observer, &earth(row, tier));
+    let given: Vec<_> = rows.iter().map(|row| (observer(row, BEST), earth(row, tier))).collect();
     let sharing =
         |(observer, earth): &(Observer, EarthState)| apparent(body, tier, observer, earth);
     (each(&observed, with_earth), each(&given, sharing))
