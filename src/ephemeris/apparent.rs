@@ -13,7 +13,7 @@
 use glam::DVec3;
 
 use super::body::Body;
-use super::orientation::Orientation;
+use super::orientation::{Nutation, NutationForm, Orientation};
 use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
@@ -42,7 +42,8 @@ pub struct Observer {
 
 impl Observer {
     pub fn at(instant: &Instant, place: &Place) -> Observer {
-        let orientation = Orientation::at(instant);
+        let nutation = Nutation::at(instant.tt, NutationForm::Iau2000b);
+        let orientation = Orientation::at(instant, &nutation);
         let itrs_from_icrs = orientation.itrs_from_icrs();
         let icrs_from_itrs = itrs_from_icrs.inverse();
         let axis: Dir<Itrs> = Dir::from_vector(DVec3::Z);
@@ -52,7 +53,7 @@ impl Observer {
         Observer {
             tdb: instant.tdb,
             orientation,
-            true_from_icrs: orientation.true_from_icrs(),
+            true_from_icrs: orientation.true_from_icrs,
             horizon_from_icrs: place.horizon_from_itrs() * itrs_from_icrs,
             position: icrs_from_itrs * itrs,
             velocity_km_s: (icrs_from_itrs * velocity).km(),
