@@ -49,7 +49,9 @@ fn main() {
     }
     let baseline_ns = costs(&rows, Body::Sun, Tier::Paper).0;
     println!("One apparent place: alone, with the theory of the Earth; and where others share it");
-    println!("body     tier             error, arcsec  of bound  alone, ns   ratio  sharing, ns  places");
+    println!(
+        "body     tier             error, arcsec  of bound  alone, ns   ratio  sharing, ns  places"
+    );
     for tier in Tier::ALL {
         for body in Body::ALL.into_iter().filter(|&body| tier.knows(body)) {
             let (error, part, places) = worst(&rows, body, tier);
@@ -82,7 +84,10 @@ fn main() {
         Ok(stars) => {
             let sky = sky(&rows[0], FINE);
             let ns = median_ns(1, || drop(black_box(sky.stars(black_box(&stars)))));
-            line(&format!("stars to the horizon frame, each of {}", stars.len()), ns / stars.len() as f64);
+            line(
+                &format!("stars to the horizon frame, each of {}", stars.len()),
+                ns / stars.len() as f64,
+            );
         }
         Err(error) => println!("no stars: {error}"),
     }

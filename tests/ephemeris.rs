@@ -91,7 +91,7 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
     for_each_row(DE440, |row| {
         let Ok(body) = row.text("body").parse::<Body>() else { return };
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
         for tier in Tier::ALL.into_iter().filter(|tier| tier.knows(body)) {
             let bound = tier.bound(body, instant.tdb).unwrap();
             let seen = ApparentPlace::of(
@@ -196,7 +196,7 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
         let body: Body = row.text("body").parse().unwrap();
         let tt = JulianDate::from_jd(row.number("jd_tt"));
         let instant = instant(tt, tt.read_on(0.0));
-        let observer = Observer::at(&instant, &place);
+        let observer = Observer::at(&EPHEMERIS, &instant, &place, Angle::ZERO);
         let truth: Dir<TrueOfDate> = row.dir("ra_deg", "dec_deg");
         for tier in Tier::ALL {
             let Some(bound) = tier.bound(body, instant.tdb) else { continue };
@@ -265,7 +265,7 @@ fn stars_stand_where_hipparcos_and_erfa_put_them() {
     for_each_row(DE440, |row| {
         let Some(star) = star(row.text("body")) else { return };
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
         let topocentric: Dir<TrueOfDate> = row.dir("topo_ra_app_deg", "topo_dec_app_deg");
         let horizon: Dir<Horizon> =
             Dir::from_azimuth_altitude(row.angle("az_deg"), row.angle("alt_deg_airless"));
@@ -295,7 +295,7 @@ fn the_moon_turns_as_its_integrated_librations_say() {
             return;
         }
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
         let earth = EPHEMERIS.earth(instant.tdb, Tier::Series).unwrap();
         let seen =
             ApparentPlace::of(&EPHEMERIS, Body::Moon, Tier::Series, &observer, &earth).unwrap();

@@ -6,16 +6,15 @@
 //! velocity, the parallax in the origin.
 //!
 //! *Omitted.* The Sun's potential in the aberration and the delay of light by gravity (below
-//! 0.000001"), deflection by Jupiter (0.016" at its limb), the motion of the Sun about the
-//! barycentre (0.011" of aberration, see [`Ephemeris::earth`]), polar motion (0.6" at most),
-//! air.
+//! 0.000001"), deflection by Jupiter (0.016" at its limb), polar motion (0.6" at most), air; and by
+//! the analytic tiers the motion of the Sun about the barycentre (0.011" of aberration).
 
 use glam::DVec3;
 
 use super::body::Body;
-use super::orientation::{Nutation, NutationForm, Orientation};
+use super::orientation::Orientation;
 use super::tables::{EarthState, Ephemeris};
-use super::tier::{EphemerisError, Tier};
+use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
 use crate::time::{Instant, JulianDate, Tdb};
@@ -41,8 +40,15 @@ pub struct Observer {
 }
 
 impl Observer {
-    pub fn at(instant: &Instant, place: &Place) -> Observer {
-        let nutation = Nutation::at(instant.tt, NutationForm::Iau2000b);
+    /// Axes within `tolerance`, if any form of nutation is as good.
+    pub fn at(
+        ephemeris: &Ephemeris,
+        instant: &Instant,
+        place: &Place,
+        tolerance: Tolerance,
+    ) -> Observer {
+        // Half is left to the body.
+        let nutation = ephemeris.nutation(tolerance / 2.0, instant.tt);
         let orientation = Orientation::at(instant, &nutation);
         let itrs_from_icrs = orientation.itrs_from_icrs();
         let icrs_from_itrs = itrs_from_icrs.inverse();

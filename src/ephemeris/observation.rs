@@ -37,7 +37,7 @@ impl<'a> Observation<'a> {
         place: &Place,
         tolerance: Tolerance,
     ) -> Observation<'a> {
-        let observer = Observer::at(instant, place);
+        let observer = Observer::at(ephemeris, instant, place, tolerance);
         Observation { ephemeris, tolerance, observer, earths: Vec::new() }
     }
 

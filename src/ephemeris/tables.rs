@@ -6,12 +6,13 @@ use glam::DVec3;
 
 use super::analytic::Analytic;
 use super::body::Body;
+use super::orientation::{Nutation, NutationForm};
 use super::resampled::{Depth, Table};
 use super::solar_system::SolarSystem;
 use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::catalog::{CatalogError, Catalogs};
 use crate::frame::{Icrs, Pos};
-use crate::time::{JulianDate, Tdb};
+use crate::time::{JulianDate, Tdb, Tt};
 use crate::units::Angle;
 
 const DE440_FILE: &str = "de440.bin";
@@ -155,6 +156,11 @@ impl Ephemeris {
         let now = theory.position(body, tdb);
         let before_s = light_time_s(now);
         Ok((now, theory.position(body, tdb.plus_seconds(-before_s)), before_s))
+    }
+
+    /// Nutation within a tolerance, at the least cost.
+    pub fn nutation(&self, tolerance: Tolerance, tt: JulianDate<Tt>) -> Nutation {
+        Nutation::at(tt, NutationForm::choose(tolerance))
     }
 
     fn theory(&self, tier: Tier) -> Option<Theory<'_>> {
