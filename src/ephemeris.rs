@@ -35,6 +35,8 @@
 
 pub mod apparent;
 mod body;
+pub mod de440;
+pub mod kernel;
 mod moon;
 pub mod moon_orientation;
 mod observation;
