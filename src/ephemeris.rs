@@ -36,6 +36,8 @@
 mod analytic;
 pub mod apparent;
 mod body;
+pub mod de440;
+pub mod kernel;
 mod moon;
 pub mod moon_orientation;
 mod observation;

@@ -203,6 +203,15 @@ impl Channel {
         self.folded(layers).value_and_rate(tdb, |segment| self.unfold(segment, layers))
     }
 
+    /// The value straight from the bits and the reference: slow, and what folding is measured by.
+    pub fn unfolded_value(&self, tdb: JulianDate<Tdb>, depth: Depth) -> DVec3 {
+        let recipe = self.recipe();
+        let days = tdb - JulianDate::from_jd(recipe.start_jd);
+        let segment = ((days / recipe.segment_days) as usize).min(recipe.segments as usize - 1);
+        let x = 2.0 * (days / recipe.segment_days - segment as f64) - 1.0;
+        self.unfold(segment, depth.layers().min(self.loaded))(x)
+    }
+
     #[inline]
     fn folded(&self, layers: usize) -> &Folded {
         self.folded[layers - 1].get_or_init(|| {

@@ -1,6 +1,8 @@
 //! Makes the files in `catalogs/` out of the raw tables, or checks that they are what packing
 //! makes.
 
+mod kernels;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,9 @@ struct Args {
     /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
     #[arg(long, value_name = "FILE")]
     moon: Option<PathBuf>,
+    /// Directory of the kernels; without one its table stays as it is
+    #[arg(long, value_name = "DIR", default_value = "target/kernels")]
+    kernels: PathBuf,
     /// Write nothing; say whether packing gives the same bytes.
     #[arg(long)]
     check: bool,
@@ -55,6 +60,7 @@ fn run(args: &Args) -> Result<bool, String> {
             "moon_albedo.bin: no {MOON_PICTURE} among the raw tables, the packed map stays as it is"
         ),
     }
+    packed.extend(kernels::tables(&args.kernels)?);
     if args.check {
         return Ok(check(&args.out, &packed));
     }
