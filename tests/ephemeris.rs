@@ -8,7 +8,7 @@ use nocturne::catalog::{Catalogs, Star};
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
 use nocturne::ephemeris::moon_orientation::{Libration, axis_position_angle, moon_fixed_from_icrs};
 use nocturne::ephemeris::stars::StarReduction;
-use nocturne::ephemeris::{Body, Ephemeris, EphemerisError, Observation, Tier};
+use nocturne::ephemeris::{Body, Depth, Ephemeris, EphemerisError, Observation, Tier};
 use nocturne::frame::{Dir, Horizon, Icrs, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
@@ -92,7 +92,7 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
         let Ok(body) = row.text("body").parse::<Body>() else { return };
         let instant = de440_instant(row);
         let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
-        for tier in Tier::ALL.into_iter().filter(|tier| tier.knows(body)) {
+        for tier in Tier::ALL.into_iter().filter(|&tier| tier.knows(body) && EPHEMERIS.has(tier)) {
             let bound = tier.bound(body, instant.tdb).unwrap();
             let seen = ApparentPlace::of(
                 &EPHEMERIS,
@@ -195,10 +195,12 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
     for_each_row(DEEP_TIME, |row| {
         let body: Body = row.text("body").parse().unwrap();
         let tt = JulianDate::from_jd(row.number("jd_tt"));
-        let instant = instant(tt, tt.read_on(0.0));
+        // The first dates lie before all calendars. TDB is within 2 ms of TT: 0.001" of the Moon.
+        let instant =
+            Instant { utc: tt.read_on(0.0), ut1: tt.read_on(0.0), tt, tdb: tt.read_on(0.0) };
         let observer = Observer::at(&EPHEMERIS, &instant, &place, Angle::ZERO);
         let truth: Dir<TrueOfDate> = row.dir("ra_deg", "dec_deg");
-        for tier in Tier::ALL {
+        for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
             let Some(bound) = tier.bound(body, instant.tdb) else { continue };
             let seen = ApparentPlace::of(
                 &EPHEMERIS,
@@ -262,6 +264,7 @@ fn star(name: &str) -> Option<Star> {
 #[test]
 fn stars_stand_where_hipparcos_and_erfa_put_them() {
     let mut largest = Largest::default();
+    let analytic = Ephemeris::analytic();
     for_each_row(DE440, |row| {
         let Some(star) = star(row.text("body")) else { return };
         let instant = de440_instant(row);
@@ -336,7 +339,7 @@ fn the_sky_agrees_with_the_table_on_phase_and_size() {
         let sky = SkyState::at(&EPHEMERIS, &de440_instant(row), &place, Angle::from_arcsec(60.0))
             .unwrap();
         let moon = &sky.moon;
-        assert_eq!(moon.state.tier, Tier::Series);
+        assert_eq!(moon.state.tier, Tier::De440(Depth::Tenth));
         let diameter_arcsec = 2.0 * moon.state.angular_radius.arcsec();
         assert!((diameter_arcsec - row.number("topo_ang_diam_arcsec")).abs() < 0.3);
         // Topocentric phase differs from the geocentric one of the table by the parallax at most.
@@ -357,7 +360,8 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
     let tt = JulianDate::from_jd(2_451_545.0);
     let instant = instant(tt, tt.read_on(-63.83));
     let place = Place::new(35.0, -111.0, 2100.0).unwrap();
-    let sky = SkyState::at(&EPHEMERIS, &instant, &place, Angle::from_deg(1.0)).unwrap();
+    let analytic = Ephemeris::analytic();
+    let sky = SkyState::at(&analytic, &instant, &place, Angle::from_deg(1.0)).unwrap();
     assert_eq!(sky.sun.tier, Tier::Paper);
     assert_eq!(sky.moon.state.tier, Tier::Paper);
     for body in Body::ALL {
@@ -377,15 +381,40 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
 
 #[test]
 fn the_cheapest_tier_that_is_good_enough_is_chosen() {
-    let now = JulianDate::from_jd(2_460_000.5);
-    let chosen = |body, arcsec| EPHEMERIS.choose(body, Angle::from_arcsec(arcsec), now).unwrap().0;
-    assert_eq!(chosen(Body::Sun, 300.0), Tier::Paper);
-    assert_eq!(chosen(Body::Sun, 30.0), Tier::Series);
-    assert_eq!(chosen(Body::Moon, 300.0), Tier::Series);
-    assert_eq!(chosen(Body::Mars, 3600.0), Tier::Series);
+    let (now, then) = (JulianDate::from_jd(2_460_000.5), JulianDate::from_jd(1_500_000.5));
+    let chosen = |ephemeris: &Ephemeris, body, arcsec, tdb| {
+        ephemeris.choose(body, Angle::from_arcsec(arcsec), tdb).unwrap().0
+    };
+    let analytic = Ephemeris::analytic();
+    assert_eq!(chosen(&analytic, Body::Sun, 300.0, now), Tier::Paper);
+    assert_eq!(chosen(&analytic, Body::Sun, 30.0, now), Tier::Series);
+    assert_eq!(chosen(&analytic, Body::Moon, 300.0, now), Tier::Series);
+    assert_eq!(chosen(&analytic, Body::Mars, 3600.0, now), Tier::Series);
     // Nothing is as good as this: the best there is.
-    let (tier, bound) = EPHEMERIS.choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
+    let (tier, bound) = analytic.choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
     assert_eq!((tier, Some(bound)), (Tier::Series, Tier::Series.bound(Body::Moon, now)));
+
+    for (arcsec, depth) in [
+        (3600.0, Depth::Tenth),
+        (0.1, Depth::Tenth),
+        (0.05, Depth::Hundredth),
+        (0.01, Depth::Hundredth),
+        (0.001, Depth::Thousandth),
+        (1e-6, Depth::Thousandth),
+    ] {
+        assert_eq!(chosen(&EPHEMERIS, Body::Venus, arcsec, now), Tier::De440(depth));
+        assert_eq!(chosen(&EPHEMERIS, Body::Venus, arcsec, then), Tier::De431);
+    }
+    // Read no deeper than was asked.
+    let coarse =
+        Ephemeris::load(&Catalogs::locate(None).unwrap(), Angle::from_arcsec(5.0)).unwrap();
+    assert_eq!(chosen(&coarse, Body::Venus, 0.001, now), Tier::De440(Depth::Tenth));
+    let refused = coarse.geometric(Body::Venus, now, Tier::De440(Depth::Hundredth)).unwrap_err();
+    assert!(refused.to_string().contains("not to that depth"), "{refused}");
+    assert!(matches!(
+        analytic.geometric(Body::Venus, now, Tier::De431),
+        Err(EphemerisError::NotLoaded { .. })
+    ));
 }
 
 #[test]
@@ -413,7 +442,7 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
 
 #[test]
 fn the_earths_velocity_is_the_rate_of_its_position() {
-    for tier in Tier::ALL {
+    for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
         let at = JulianDate::from_jd(2_460_123.25);
         let state = |seconds: f64| EPHEMERIS.earth(at.plus_seconds(seconds), tier).unwrap();
         let rate: DVec3 = (state(600.0).position - state(-600.0).position).km() / 1200.0;

@@ -65,7 +65,7 @@ impl Ephemeris {
         };
         Ok(Ephemeris {
             de440: read(DE440_FILE, depth, Tier::De440(depth))?,
-            de431: read(DE431_FILE, Depth::Tenth, Tier::De431)?,
+            de431: read(DE431_FILE, Depth::Tenth, Tier::De431).unwrap_or_default(),
         })
     }
 

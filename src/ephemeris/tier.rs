@@ -37,7 +37,7 @@ pub enum Tier {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EphemerisError {
     #[error(
-        "{body}: the year {year:.1} is outside {low} to {high}, where the {tier} tier holds; choose \
+        "{body}: the year {year:.1} is outside {low:.0} to {high:.0}, where the {tier} tier holds; choose \
          a date within"
     )]
     Date { body: Body, tier: Tier, year: f64, low: f64, high: f64 },
@@ -48,7 +48,8 @@ pub enum EphemerisError {
 }
 
 /// Julian years that the table of DE440 holds.
-const DE440_YEARS: RangeInclusive<f64> = 1550.0..=2650.0;
+/// 1550-01-01 to 2650-01-24; light that arrives then left within the day before.
+const DE440_YEARS: RangeInclusive<f64> = 1550.008..=2650.05;
 /// Julian years that the table of DE431 holds.
 const DE431_YEARS: RangeInclusive<f64> = -3000.0..=3001.0;
 /// Julian years in which the formulas of the paper stay within three degrees.
