@@ -13,7 +13,7 @@
 use glam::DVec3;
 
 use super::body::Body;
-use super::orientation::{Nutation, NutationForm, Orientation};
+use super::orientation::{Nutation, Orientation};
 use super::position::EarthState;
 use super::tables::Ephemeris;
 use super::tier::{EphemerisError, Tier};
@@ -43,7 +43,7 @@ pub struct Observer {
 
 impl Observer {
     pub fn at(instant: &Instant, place: &Place) -> Observer {
-        let nutation = Nutation::at(instant.tt, NutationForm::Iau2000b);
+        let nutation = Nutation::iau2000b(instant.tt);
         let orientation = Orientation::at(instant, &nutation);
         let itrs_from_icrs = orientation.itrs_from_icrs();
         let icrs_from_itrs = itrs_from_icrs.inverse();
