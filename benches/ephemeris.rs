@@ -14,13 +14,15 @@ use std::time::Instant as Clock;
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
+use nocturne::ephemeris::orientation::{NutationForm, Nutations, Orientation};
 use nocturne::ephemeris::{Body, Depth, EarthState, Ephemeris, Observation, Tier};
 use nocturne::frame::{Dir, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
-use nocturne::time::{Instant, JulianDate};
+use nocturne::time::{Instant, JulianDate, Tt};
 use nocturne::units::Angle;
 
+const IAU_2006: &str = include_str!("../tests/truth/earth_iau2006.csv");
 const DE440: &str = include_str!("../tests/truth/ephemeris_de440.csv");
 /// Repetitions whose median is taken.
 const REPETITIONS: usize = 501;
@@ -72,7 +74,6 @@ fn main() {
     println!("\nWhat all share, and the whole                          ns   ratio");
     line("instant: UTC and TDB from TT and UT1", each(&rows, instant));
     line("observer: precession, nutation, rotation", each(&rows, |row| observer(row, FINE)));
-    line("the same by IAU 2000A in full", each(&rows, |row| observer(row, Angle::ZERO)));
     for tier in Tier::ALL {
         let name = format!("Earth, position and velocity, {tier}");
         line(&name, each(&rows, |row| earth(row, tier)));
@@ -80,6 +81,7 @@ fn main() {
     line("shared by all to 0.01\": instant, observer, Earth", shared_ns(&rows));
     line("Sun, Moon and eight planets to 0.01\"", all_ns(&rows));
     line("SkyState::at to 0.01\"", each(&rows, |row| sky(row, FINE)));
+    earth_stands(&rows, baseline_ns);
     match Catalogs::locate(None).and_then(|catalogs| catalogs.stars()) {
         Ok(stars) => {
             let sky = sky(&rows[0], FINE);
@@ -127,6 +129,49 @@ fn all_ns(rows: &[Row]) -> f64 {
 
 fn fine_tier() -> Tier {
     Tier::De440(Depth::Hundredth)
+/// Axes and rotation of the Earth by each form of nutation: the largest error against ERFA, and costs.
+fn earth_stands(rows: &[Row], baseline_ns: f64) {
+    let nutations = match Catalogs::locate(None).and_then(|catalogs| Nutations::load(&catalogs)) {
+        Ok(nutations) => nutations,
+        Err(error) => return println!("no table of nutation: {error}"),
+    };
+    let truth: Vec<(JulianDate<Tt>, Angle, Angle)> = IAU_2006
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| {
+            let n: Vec<f64> = line.split(',').map(|n| n.parse().expect("a number")).collect();
+            let tt = JulianDate::from_parts(n[0], n[1]);
+            (tt, Angle::from_arcsec(n[4]), Angle::from_arcsec(n[5]))
+        })
+        .collect();
+    println!(
+        "\nHow the Earth stands        error, arcsec   nutation, ns   ratio  all axes, ns   ratio"
+    );
+    for form in NutationForm::ALL {
+        let error = truth.iter().fold(0.0, |error: f64, &(tt, longitude, obliquity)| {
+            let nutation = nutations.at(tt, form);
+            let off = (nutation.longitude - longitude).abs();
+            error.max(off.max((nutation.obliquity - obliquity).abs()).arcsec())
+        });
+        let nutation_ns = each(rows, |row| nutations.at(row.instant.tt, form));
+        let all_ns =
+            each(rows, |row| Orientation::at(&row.instant, &nutations.at(row.instant.tt, form)));
+        println!(
+            "nutation {:16} {error:16.6} {nutation_ns:14.0} {:7.2} {all_ns:13.0} {:7.2}",
+            format!("{form:?}"),
+            nutation_ns / baseline_ns,
+            all_ns / baseline_ns,
+        );
+    }
+    let antiquity: Vec<Instant> = (0..256)
+        .filter_map(|i| {
+            Instant::from_tt(JulianDate::from_jd(625_332.0 + 2_345.6 * f64::from(i))).ok()
+        })
+        .collect();
+    let all_ns =
+        each(&antiquity, |instant| Orientation::at(instant, &nutations.within(Angle::from_deg(1.0), instant.tt)));
+    let ratio = all_ns / baseline_ns;
+    println!("the same in -3000 to -1400, to 1 degree {all_ns:45.0} {ratio:7.2}");
 }
 
 fn rows() -> Vec<Row> {

@@ -2,9 +2,13 @@
 //! over millennia, and the joins between them.
 
 use glam::{DMat3, DVec3};
+use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::orientation::{
-    Nutation, NutationForm, Orientation, PolarMotion, earth_rotation_angle, ecliptic_from_icrs,
-    mean_from_icrs, mean_obliquity, mean_sidereal_time, polar_motion,
+    Nutation, NutationForm, Nutations, Orientation, PolarMotion, earth_rotation_angle,
+    ecliptic_from_icrs, mean_from_icrs, mean_obliquity, mean_sidereal_time, polar_motion,
+};
+use nocturne::ephemeris::resampled::{
+    ChannelSource, Depth, Folding, Recipe, Reference, Table, encode,
 };
 use nocturne::time::{Instant, JulianDate, Tt};
 use nocturne::units::Angle;
@@ -65,40 +69,46 @@ fn off(a: Angle, b: Angle) -> f64 {
     (a - b).signed().abs().arcsec()
 }
 
-fn orientation(instant: &Instant, form: NutationForm) -> Orientation {
-    Orientation::at(instant, &Nutation::at(instant.tt, form))
+fn short(instant: &Instant) -> Orientation {
+    Orientation::at(instant, &Nutation::iau2000b(instant.tt))
+}
+
+fn with_table() -> Nutations {
+    let catalogs = Catalogs::locate(None).expect("the catalogues of the source tree");
+    Nutations::load(&catalogs).expect("a table as it was packed")
+}
+
+/// Largest differences from ERFA over its table: longitude, obliquity, axes, sidereal time, arcsec.
+fn worst(nutations: &Nutations, form: NutationForm) -> [f64; 4] {
+    let rows = rows(IAU_2006);
+    assert_eq!(rows.len(), 180);
+    rows.iter().fold([0.0; 4], |worst, row| {
+        let nutation = nutations.at(row.instant.tt, form);
+        let axes = Orientation::at(&row.instant, &nutation);
+        let errors = [
+            off(nutation.longitude, row.longitude),
+            off(nutation.obliquity, row.obliquity),
+            off_axes(axes.true_from_icrs.matrix(), row.equinox, row.pole),
+            off(axes.sidereal_time, row.sidereal_time),
+        ];
+        std::array::from_fn(|i| errors[i].max(worst[i]))
+    })
 }
 
 #[test]
 fn the_whole_series_is_the_standard_over_its_span() {
-    let rows = rows(IAU_2006);
-    assert_eq!(rows.len(), 180);
-    let mut worst = [0.0_f64; 4];
-    for row in rows {
-        let axes = orientation(&row.instant, NutationForm::Iau2000a);
-        let errors = [
-            off(axes.nutation.longitude, row.longitude),
-            off(axes.nutation.obliquity, row.obliquity),
-            off_axes(axes.true_from_icrs.matrix(), row.equinox, row.pole),
-            off(axes.sidereal_time, row.sidereal_time),
-        ];
-        for (worst, error) in worst.iter_mut().zip(errors) {
-            assert!(error < 2e-6, "{}: {errors:?}", row.year());
-            *worst = worst.max(error);
-        }
-    }
-    println!("longitude, obliquity, axes, sidereal time, arcsec: {worst:?}");
+    let worst = worst(&Nutations::series(), NutationForm::Iau2000a);
+    assert!(worst.iter().all(|&error| error < 2e-6), "{worst:?}");
 }
 
 #[test]
-fn the_short_series_stays_within_its_bound() {
-    let bound = NutationForm::Iau2000b.bound().arcsec();
-    for row in rows(IAU_2006) {
-        let axes = orientation(&row.instant, NutationForm::Iau2000b);
-        assert!(off(axes.nutation.longitude, row.longitude) < bound, "{}", row.year());
-        assert!(off(axes.nutation.obliquity, row.obliquity) < bound, "{}", row.year());
-        assert!(off(axes.sidereal_time, row.sidereal_time) < bound, "{}", row.year());
-        assert!(off_axes(axes.true_from_icrs.matrix(), row.equinox, row.pole) < bound);
+fn the_cheaper_forms_stay_within_their_bounds() {
+    let nutations = with_table();
+    for form in [NutationForm::Interpolated, NutationForm::Iau2000b] {
+        let worst = worst(&nutations, form);
+        assert!(worst.iter().all(|&error| error < form.bound().arcsec()), "{form:?}: {worst:?}");
+        // They are not the whole series by another name.
+        assert!(worst[0] > 2e-6, "{form:?}");
     }
 }
 
@@ -112,8 +122,8 @@ fn millennia_away_the_long_term_precession_is_that_of_erfa() {
         assert!(error < 1e-7, "{year}: {error}");
         let error = off(mean_sidereal_time(row.instant.ut1, tt), row.sidereal_time);
         assert!(error < 1e-6, "{year}: {error}");
-        for form in NutationForm::ALL {
-            let nutation = Nutation::at(tt, form);
+        for form in [NutationForm::Iau2000b, NutationForm::Iau2000a] {
+            let nutation = Nutations::series().at(tt, form);
             let error =
                 off(nutation.longitude, row.longitude).max(off(nutation.obliquity, row.obliquity));
             assert!(error < form.bound().arcsec(), "{year}, {form:?}: {error}");
@@ -121,15 +131,14 @@ fn millennia_away_the_long_term_precession_is_that_of_erfa() {
     }
 }
 
-/// What precession, nutation and sidereal time do in a tenth of a day is the same on either side of
-/// every join: no step, and no kink that the eye of a telescope would see.
+/// A tenth of a day before a join and a tenth after it the axes move alike: no step, no kink.
 #[test]
 fn nothing_steps_where_the_models_are_joined() {
     let day = 0.1 / 365.25;
     for join in [1340.0, 1540.0, 2660.0, 2860.0, -2200.0, -4000.0] {
         let at = |year: f64| {
             let instant = at_year(year);
-            let axes = orientation(&instant, NutationForm::Iau2000b);
+            let axes = short(&instant);
             // Less the even rotation.
             let drift = axes.sidereal_time - earth_rotation_angle(instant.ut1);
             (axes.true_from_icrs.matrix(), drift.signed(), axes.mean_obliquity)
@@ -147,31 +156,56 @@ fn nothing_steps_where_the_models_are_joined() {
     }
 }
 
-/// While the blend lasts, the equinox and sidereal time stay between the two models, which are
-/// 0.03" apart: they must move together, or the stars would turn.
+/// How far the origin of the Earth rotation angle turns about the pole between two years, arcseconds:
+/// by its definition, nothing. `axes` gives sidereal time, and the matrix to the equator and
+/// equinox that it belongs to.
+fn turned(start: f64, end: f64, steps: i32, axes: impl Fn(&Instant) -> (Angle, DMat3)) -> f64 {
+    let origin = |step: i32| {
+        let instant = at_year(start + (end - start) * f64::from(step) / f64::from(steps));
+        let (sidereal_time, matrix) = axes(&instant);
+        let (sin, cos) = (sidereal_time - earth_rotation_angle(instant.ut1)).sin_cos();
+        (matrix.row(0) * cos + matrix.row(1) * sin, matrix.row(2))
+    };
+    let mut last = origin(0);
+    let mut turned = 0.0;
+    for step in 1..=steps {
+        let next = origin(step);
+        // Along the equator, at the middle of the step.
+        turned += (next.0 - last.0).dot((next.1 + last.1).cross(next.0 + last.0)) / 4.0;
+        last = next;
+    }
+    Angle::from_rad(turned).arcsec()
+}
+
+/// While the blend lasts, the equinox and sidereal time must move together, or the stars would turn.
 #[test]
 fn the_blend_does_not_turn_the_sky() {
-    // The hour angle of a star at the equinox of J2000.0 grows with UT1 and the motion of the pole
-    // alone. Over a century of the blend it may depart from that by what the origins differ.
-    let origin = |year: f64| {
-        let instant = at_year(year);
-        let mean = mean_from_icrs(instant.tt).matrix();
-        let sidereal = mean_sidereal_time(instant.ut1, instant.tt);
-        let past = sidereal - earth_rotation_angle(instant.ut1);
-        let (sin, cos) = past.sin_cos();
-        // The origin that the Earth rotation angle counts from, in ICRS axes.
-        (mean.row(0) * cos + mean.row(1) * sin, mean.row(2))
+    let mean = |instant: &Instant| {
+        let matrix = mean_from_icrs(instant.tt).matrix();
+        (mean_sidereal_time(instant.ut1, instant.tt), matrix)
     };
     for (start, end) in [(1540.0, 1340.0), (2660.0, 2860.0)] {
-        let mut turned = Angle::ZERO;
-        let steps = 2000;
-        for i in 0..steps {
-            let at = |i: i32| origin(start + (end - start) * f64::from(i) / f64::from(steps));
-            let ((a, pole), (b, _)) = (at(i), at(i + 1));
-            // A non-rotating origin moves towards the pole or away from it, never along the equator.
-            turned += Angle::from_rad((b - a).dot(pole.cross(a)));
-        }
-        assert!(turned.abs().arcsec() < 0.05, "{start}: {}", turned.arcsec());
+        // The loops of nutation, which the mean equator does not make, are made up for.
+        let loops = -0.003_808_65 * (end - start) / 100.0;
+        let turned = turned(start, end, 2000, mean) - loops;
+        assert!(turned.abs() < 0.001, "{start}: {turned}");
+    }
+}
+
+#[test]
+fn the_origin_of_the_rotation_angle_drifts_as_documented() {
+    let nutations = with_table();
+    let apparent = |instant: &Instant| {
+        let nutation = nutations.at(instant.tt, NutationForm::Interpolated);
+        let axes = Orientation::at(instant, &nutation);
+        (axes.sidereal_time, axes.true_from_icrs.matrix())
+    };
+    let bounds = [(1560.0, 3e-5), (1800.0, 3e-5), (2200.0, 3e-5), (2400.0, 5e-5), (2600.0, 5e-4)];
+    for (year, bound) in bounds {
+        // Steps of half a day.
+        let steps = (f64::abs(year - 2000.0) * 365.25 * 2.0) as i32;
+        let drift = turned(2000.0, year, steps, apparent);
+        assert!(drift.abs() < bound, "{year}: {drift}");
     }
 }
 
@@ -179,7 +213,7 @@ fn the_blend_does_not_turn_the_sky() {
 fn axes_stay_at_right_angles_and_agree_with_each_other() {
     for i in 0..400 {
         let instant = at_year(-4000.0 + 20.03 * f64::from(i));
-        let axes = orientation(&instant, NutationForm::Iau2000b);
+        let axes = short(&instant);
         let ecliptic = ecliptic_from_icrs(instant.tt).matrix();
         for matrix in [
             axes.mean_from_icrs.matrix(),
@@ -202,7 +236,7 @@ fn polar_motion_tips_the_crust_and_nothing_else() {
     let pole = polar_motion(instant.utc);
     assert!(off(pole.x, Angle::from_arcsec(0.0768)) < 0.001, "{pole:?}");
     assert!(off(pole.y, Angle::from_arcsec(0.2820)) < 0.001, "{pole:?}");
-    let still = orientation(&instant, NutationForm::Iau2000b);
+    let still = short(&instant);
     let moved = still.with_polar_motion(&instant, pole);
     assert_eq!(moved.true_from_icrs.matrix(), still.true_from_icrs.matrix());
     // The intermediate pole stands at x towards Greenwich and y towards 90 degrees west.
@@ -214,8 +248,71 @@ fn polar_motion_tips_the_crust_and_nothing_else() {
 }
 
 #[test]
+fn the_table_is_the_series_between_the_rows_too() {
+    let nutations = with_table();
+    let bound = NutationForm::Interpolated.bound().arcsec();
+    // Eleven years less a little apart, so that all phases of a segment come.
+    for i in 0..1100 {
+        let tt = at_year(1550.0 + 0.99917 * f64::from(i)).tt;
+        let (table, series) =
+            (nutations.at(tt, NutationForm::Interpolated), Nutation::iau2000a(tt));
+        assert!(off(table.longitude, series.longitude) < bound, "{i}");
+        assert!(off(table.obliquity, series.obliquity) < bound, "{i}");
+        assert!(off(table.locator, series.locator) < bound, "{i}");
+    }
+}
+
+#[test]
+fn the_table_has_no_steps() {
+    let nutations = with_table();
+    // Borders of segments: every sixteenth midnight from the first.
+    for i in 1..1000 {
+        let border = JulianDate::<Tt>::from_jd(2_287_160.5 + 16.0 * 25.0 * f64::from(i));
+        let at = |seconds| {
+            nutations.at(border.plus_seconds(seconds), NutationForm::Interpolated).longitude
+        };
+        // 0.0001" are what nutation itself may do in a minute.
+        assert!(off(at(-30.0), at(30.0)) < 0.0003, "{border:?}");
+        assert!(off(at(-0.001), at(0.001)) < 1e-7, "{border:?}");
+    }
+}
+
+#[test]
+fn a_table_of_something_else_is_refused() {
+    let recipe = Recipe {
+        id: "libration".into(),
+        start_jd: 2_451_544.5,
+        segment_days: 16.0,
+        segments: 1,
+        components: 1,
+        degree: 3,
+        quantum: [1e-9; 3],
+        omitted_bits: [0, 0],
+        reference: Reference::None,
+        folding: [Folding { pieces: 1, degree: 3 }; 3],
+    };
+    let bytes = encode(&[ChannelSource { recipe, sample: &|_| DVec3::ZERO }]).expect("a table");
+    let other = Table::from_bytes(&bytes, Depth::Thousandth).expect("a table");
+    assert!(Nutations::with_table(other).unwrap_err().contains("nutation"));
+}
+
+#[test]
 fn the_cheapest_form_that_is_good_enough_is_chosen() {
-    assert_eq!(NutationForm::choose(Angle::from_arcsec(1.0)), NutationForm::Iau2000b);
-    assert_eq!(NutationForm::choose(Angle::from_arcsec(0.001)), NutationForm::Iau2000a);
-    assert_eq!(NutationForm::choose(Angle::ZERO), NutationForm::Iau2000a);
+    let (now, antiquity) = (at_year(2026.0).tt, at_year(-500.0).tt);
+    let series = Nutations::series();
+    let table = with_table();
+    for (arcsec, nutations, tt, form) in [
+        (1.0, &series, now, NutationForm::Iau2000b),
+        (0.001, &series, now, NutationForm::Iau2000a),
+        (0.0, &series, now, NutationForm::Iau2000a),
+        (1.0, &table, now, NutationForm::Interpolated),
+        (0.001, &table, now, NutationForm::Interpolated),
+        (0.0, &table, now, NutationForm::Iau2000a),
+        (1.0, &table, antiquity, NutationForm::Iau2000b),
+        (0.001, &table, antiquity, NutationForm::Iau2000a),
+    ] {
+        assert_eq!(nutations.choose(Angle::from_arcsec(arcsec), tt), form, "{arcsec} {tt:?}");
+    }
+    // Outside its table the interpolated form is the whole series.
+    assert_eq!(table.at(antiquity, NutationForm::Interpolated), Nutation::iau2000a(antiquity));
 }

@@ -5,10 +5,11 @@
 //! from the whole series to a table ([`NutationForm`]). The files below say each theory, and how we
 //! differ: `precession`, `nutation`, `sidereal`, `polar_motion`.
 //!
-//! *Accuracy.* From 1540 to 2660, with the nutation of IAU 2000A, true equinox and pole are within
-//! 0.000002" of `pnm06a` of ERFA and sidereal time within 0.000002" of `gst06a`. Outside, the precession
-//! is good to a few arcseconds in historical times (Vondrák et al.), and all is consistent with it. What
-//! the Earth does beyond the models, 0.0003" now, is measured afterwards and left out.
+//! *Accuracy.* From 1550 to 2650, with the whole series of IAU 2000A, true equinox and pole are within
+//! 0.000002" of `pnm06a` of ERFA and sidereal time within 0.000002" of `gst06a`; out of the table within
+//! 0.00005" ([`NutationForm::bound`]). Before 1340 and after 2860 the precession is good to a few
+//! arcseconds in historical times (Vondrák et al.), and the rest is consistent with it. What the Earth
+//! does beyond the models, 0.0003" now, can only be measured and is left out.
 
 mod arguments;
 pub mod nutation;
@@ -22,7 +23,7 @@ use crate::frame::{turn_axes_x, turn_axes_z};
 use crate::time::Instant;
 use crate::units::Angle;
 
-pub use nutation::{Nutation, NutationForm};
+pub use nutation::{Nutation, NutationForm, Nutations};
 pub use polar_motion::{PolarMotion, polar_motion};
 pub use precession::{ecliptic_from_icrs, mean_from_icrs, mean_obliquity};
 pub use sidereal::{earth_rotation_angle, mean_sidereal_time};

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::analytic::Analytic;
 use super::body::Body;
-use super::orientation::{Nutation, NutationForm};
+use super::orientation::{Nutation, Nutations};
 use super::resampled::{Depth, Table};
 use super::solar_system::SolarSystem;
 use super::tier::{EphemerisError, Tier, Tolerance};
@@ -35,6 +35,7 @@ pub struct EarthState {
 pub struct Ephemeris {
     de440: Option<Arc<SolarSystem>>,
     de431: Option<Arc<SolarSystem>>,
+    nutations: Nutations,
 }
 
 /// Who serves a tier.
@@ -65,6 +66,7 @@ impl Ephemeris {
         };
         Ok(Ephemeris {
             de440: read(DE440_FILE, depth, Tier::De440(depth))?,
+            nutations: Nutations::load(catalogs)?,
             de431: read(DE431_FILE, Depth::Tenth, Tier::De431).unwrap_or_default(),
         })
     }
@@ -160,7 +162,7 @@ impl Ephemeris {
 
     /// Nutation within a tolerance, at the least cost.
     pub fn nutation(&self, tolerance: Tolerance, tt: JulianDate<Tt>) -> Nutation {
-        Nutation::at(tt, NutationForm::choose(tolerance))
+        self.nutations.within(tolerance, tt)
     }
 
     fn theory(&self, tier: Tier) -> Option<Theory<'_>> {

@@ -11,6 +11,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use nocturne::catalog::pack::{self, Packed, SOURCES_FILE};
 use nocturne::catalog::sha256_hex;
+use nocturne::ephemeris::orientation::nutation::table as nutation_table;
 use nocturne::export::OutputFile;
 
 /// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
@@ -53,6 +54,7 @@ fn run(args: &Args) -> Result<bool, String> {
     let mut packed = vec![
         pack::stars(&args.raw).map_err(|error| error.to_string())?,
         pack::places(&args.raw).map_err(|error| error.to_string())?,
+        nutation()?,
     ];
     match moon_picture(args) {
         Some(path) => packed.push(moon(&args.raw, &path)?),
@@ -66,6 +68,12 @@ fn run(args: &Args) -> Result<bool, String> {
     }
     write(&args.out, &packed)?;
     Ok(true)
+}
+
+/// The table of nutation needs no raw table: the series is compiled in.
+fn nutation() -> Result<Packed, String> {
+    let summary = "IAU 2000A, 1550 to 2650, as what IAU 2000B leaves out".into();
+    Ok(Packed { file: nutation_table::FILE, bytes: nutation_table::encode()?, summary })
 }
 
 fn moon_picture(args: &Args) -> Option<PathBuf> {

@@ -15,7 +15,7 @@ use crate::units::Angle;
 /// How many arguments there are: l, l', F, D, the node; Mercury to Neptune; the general precession.
 pub const ARGUMENTS: usize = 14;
 /// Those that belong to the Sun and the Moon, the first ones.
-const DELAUNAY_ARGUMENTS: usize = 5;
+pub const DELAUNAY_ARGUMENTS: usize = 5;
 const NODE: usize = 4;
 const GENERAL_PRECESSION: usize = 13;
 

@@ -8,15 +8,20 @@
 //! *How we differ.* All forms have the full arguments of [`super::arguments`]; IAU 2000B by the
 //! letter drops their powers and would have the node 7.5 degrees off at -4000.
 
+mod forms;
+pub mod table;
 mod terms;
 
 use std::sync::LazyLock;
 
-use super::series::Series;
-use crate::ephemeris::tier::Tolerance;
+use glam::DVec3;
+
+use super::series::{Series, Term};
 use crate::frame::{MeanOfDate, Rot, TrueOfDate, turn_axes_x, turn_axes_z};
 use crate::time::{JulianDate, Tt};
 use crate::units::Angle;
+
+pub use forms::{NutationForm, Nutations};
 
 /// Nutation with respect to the mean ecliptic and equinox of date.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,66 +34,59 @@ pub struct Nutation {
     pub locator: Angle,
 }
 
-/// How nutation is had, cheapest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum NutationForm {
-    /// The 77 terms of IAU 2000B.
-    Iau2000b,
-    /// All 1365 terms of IAU 2000A with the adjustments to IAU 2006.
-    Iau2000a,
-}
-
-impl NutationForm {
-    pub const ALL: [NutationForm; 2] = [NutationForm::Iau2000b, NutationForm::Iau2000a];
-
-    /// Bound of the difference from IAU 2000A with the adjustments to IAU 2006, in longitude, in
-    /// obliquity, and of sidereal time; from -4000 to +4000. Measured, with margin.
-    pub const fn bound(self) -> Angle {
-        match self {
-            NutationForm::Iau2000b => Angle::from_arcsec(0.0035),
-            NutationForm::Iau2000a => Angle::from_arcsec(0.000_15),
-        }
-    }
-
-    /// The cheapest form whose error stays within the tolerance, else the best there is.
-    pub fn choose(tolerance: Tolerance) -> NutationForm {
-        let good = NutationForm::ALL.into_iter().find(|form| form.bound() <= tolerance);
-        good.unwrap_or(NutationForm::Iau2000a)
-    }
-}
-
 /// How many terms of IAU 2000A make IAU 2000B.
 const IAU_2000B_TERMS: usize = 77;
 /// Stands in for the planetary terms of IAU 2000B: longitude and obliquity, arcseconds (Luzum 2001).
 const IAU_2000B_PLANETARY_ARCSEC: [f64; 2] = [-0.000_135, 0.000_388];
 
-static IAU_2000B: LazyLock<Series> = LazyLock::new(|| series(IAU_2000B_TERMS));
-static IAU_2000A: LazyLock<Series> = LazyLock::new(|| series(usize::MAX));
+static IAU_2000B: LazyLock<Series> = LazyLock::new(|| {
+    let mut terms = published(IAU_2000B_TERMS);
+    // The planets give the locator 0.0000005".
+    terms.retain(|term| !term.is_planetary());
+    Series::new(&terms)
+});
+static IAU_2000A: LazyLock<Series> = LazyLock::new(|| Series::new(&published(usize::MAX)));
 
-fn series(nutation_terms: usize) -> Series {
-    Series::new(
-        &terms::read(nutation_terms)
-            .expect("the embedded series are well formed (a test reads them)"),
-    )
+fn published(nutation_terms: usize) -> Vec<Term> {
+    terms::read(nutation_terms).expect("the embedded series are well formed (a test reads them)")
 }
 
 impl Nutation {
-    /// Nutation by its series.
-    pub fn at(tt: JulianDate<Tt>, form: NutationForm) -> Nutation {
+    /// All 1365 terms of IAU 2000A with the adjustments to IAU 2006.
+    pub fn iau2000a(tt: JulianDate<Tt>) -> Nutation {
+        Nutation::summed(&IAU_2000A, [0.0, 0.0], tt)
+    }
+
+    /// The 77 terms of IAU 2000B.
+    pub fn iau2000b(tt: JulianDate<Tt>) -> Nutation {
+        Nutation::summed(&IAU_2000B, IAU_2000B_PLANETARY_ARCSEC, tt)
+    }
+
+    fn summed(series: &Series, planetary_arcsec: [f64; 2], tt: JulianDate<Tt>) -> Nutation {
         let t = tt.centuries_since_j2000();
-        let (sums, constant_arcsec) = match form {
-            NutationForm::Iau2000b => (IAU_2000B.at(t), IAU_2000B_PLANETARY_ARCSEC),
-            NutationForm::Iau2000a => (IAU_2000A.at(t), [0.0, 0.0]),
-        };
+        let sums = series.at(t);
         // Wallace & Capitaine 2006, eq. 5: the obliquity of IAU 2006, and the flattening of the
         // Earth, which wears off.
         let flattening = -2.7774e-6 * t;
-        let longitude_arcsec = sums.longitude + constant_arcsec[0];
-        let obliquity_arcsec = sums.obliquity + constant_arcsec[1];
+        let longitude_arcsec = sums.longitude + planetary_arcsec[0];
+        let obliquity_arcsec = sums.obliquity + planetary_arcsec[1];
         Nutation {
             longitude: Angle::from_arcsec(longitude_arcsec * (1.0 + 0.4697e-6 + flattening)),
             obliquity: Angle::from_arcsec(obliquity_arcsec * (1.0 + flattening)),
             locator: Angle::from_arcsec(sums.locator),
+        }
+    }
+
+    /// Longitude, obliquity and locator in radians, as tables hold them.
+    pub(in crate::ephemeris) fn vector_rad(self) -> DVec3 {
+        DVec3::new(self.longitude.rad(), self.obliquity.rad(), self.locator.rad())
+    }
+
+    fn from_vector_rad(vector: DVec3) -> Nutation {
+        Nutation {
+            longitude: Angle::from_rad(vector.x),
+            obliquity: Angle::from_rad(vector.y),
+            locator: Angle::from_rad(vector.z),
         }
     }
 

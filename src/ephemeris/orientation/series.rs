@@ -2,12 +2,12 @@
 //!
 //! *Method.* The sine and cosine of each fundamental argument are taken once; everything else is
 //! products of complex numbers of unit length. Terms that begin with the same multiples share the
-//! product of those: 1365 terms of nutation need 14 sines and 1900 products, five times fewer than
+//! product of those: 1365 terms of nutation need 14 sines and 1700 products, five times fewer than
 //! if each went its own way. The error of the products, some 20 roundings, is 1e-13 of a term.
 
 use std::collections::HashMap;
 
-use super::arguments::{ARGUMENTS, Multiples, argument_rad};
+use super::arguments::{ARGUMENTS, DELAUNAY_ARGUMENTS, Multiples, argument_rad};
 
 /// Which sum a term belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,6 +25,13 @@ pub struct Term {
     pub multiples: Multiples,
     pub sin: f64,
     pub cos: f64,
+}
+
+impl Term {
+    /// Whether its argument has more in it than the Sun and the Moon.
+    pub fn is_planetary(&self) -> bool {
+        self.multiples[DELAUNAY_ARGUMENTS..].iter().any(|&multiple| multiple != 0)
+    }
 }
 
 /// The sums of a series, in the units of its coefficients.
@@ -75,6 +82,17 @@ struct Group {
     terms: Vec<(u16, f64, f64)>,
 }
 
+impl Group {
+    /// The sum of the terms.
+    fn total(&self, phasors: &[Phasor]) -> f64 {
+        let value = |&(node, sin, cos): &(u16, f64, f64)| {
+            let phasor = phasors[usize::from(node)];
+            sin * phasor.sin + cos * phasor.cos
+        };
+        self.terms.iter().map(value).sum()
+    }
+}
+
 /// A series in an order that is fast to evaluate.
 #[derive(Debug)]
 pub struct Series {
@@ -98,10 +116,22 @@ impl Series {
             }
         }
         series.nodes.push(Node { parent: 0, multiple: 0 });
-        let mut known = HashMap::new();
-        for term in terms {
-            let node = series.node_of(term.multiples, &mut known);
-            series.group_of(term.sum, term.power).terms.push((node, term.sin, term.cos));
+        let (starts, mut known) = (series.starts(), HashMap::new());
+        let mut ends: Vec<u16> = vec![0; terms.len()];
+        // Argument by argument: what begins alike shares its nodes, and parents come first.
+        for i in ORDER {
+            for (end, term) in ends.iter_mut().zip(terms).filter(|(_, t)| t.multiples[i] != 0) {
+                let multiple =
+                    starts[i] as i16 + i16::from(series.reach[i]) + i16::from(term.multiples[i]);
+                let node = Node { parent: *end, multiple: multiple as u16 };
+                *end = *known.entry(node).or_insert_with(|| {
+                    series.nodes.push(node);
+                    series.nodes.len() as u16 - 1
+                });
+            }
+        }
+        for (end, term) in ends.into_iter().zip(terms) {
+            series.group_of(term.sum, term.power).terms.push((end, term.sin, term.cos));
         }
         // Small terms first: nothing of them is lost.
         for group in &mut series.groups {
@@ -120,21 +150,6 @@ impl Series {
             next += 2 * reach as usize + 1;
             start
         })
-    }
-
-    /// The node with these multiples; it and its parents are made where they are missing.
-    fn node_of(&mut self, multiples: Multiples, known: &mut HashMap<Node, u16>) -> u16 {
-        let starts = self.starts();
-        let mut at = 0;
-        for i in ORDER.into_iter().filter(|&i| multiples[i] != 0) {
-            let multiple = starts[i] as i16 + i16::from(self.reach[i]) + i16::from(multiples[i]);
-            let node = Node { parent: at, multiple: multiple as u16 };
-            at = *known.entry(node).or_insert_with(|| {
-                self.nodes.push(node);
-                self.nodes.len() as u16 - 1
-            });
-        }
-        at
     }
 
     fn group_of(&mut self, sum: Sum, power: i32) -> &mut Group {
@@ -157,11 +172,7 @@ impl Series {
         }
         let mut sums = Sums::default();
         for group in &self.groups {
-            let terms = group.terms.iter().map(|&(node, sin, cos)| {
-                let phasor = phasors[usize::from(node)];
-                sin * phasor.sin + cos * phasor.cos
-            });
-            *sums.of(group.sum) += t.powi(group.power) * terms.sum::<f64>();
+            *sums.of(group.sum) += t.powi(group.power) * group.total(&phasors);
         }
         sums
     }

@@ -8,9 +8,9 @@
 //! which there is no locator, it is the way of the equinox along the equator, by the definition of the
 //! origin, and the classical equation of the equinoxes.
 //!
-//! *Accuracy.* Within 0.000002" of `gst06a` from 1540 to 2660. The locator itself is a series: integrated
-//! over IAU 2006/2000A by its definition, the origin lies 0.00004" off it in 2400, 0.0004" in 2600 and
-//! 0.00015" in 1400; the long-term model and the standard differ more.
+//! *Accuracy.* Within 0.000002" of `gst06a` of ERFA from 1550 to 2650. By its definition the origin does
+//! not turn about the pole; the published one turns by less than 0.00005" until 1560 and until 2400,
+//! and by 0.0004" until 2600, where the polynomials of the standard wear out.
 
 use std::f64::consts::TAU;
 
