@@ -11,7 +11,7 @@
 //! let (from, to) = (instant("2026-01-01T00:00Z"), instant("2027-01-01T00:00Z"));
 //! let ephemeris = Ephemeris::analytic();
 //! let best = Angle::from_arcsec(0.001);
-//! let eclipses = solar_eclipses(&ephemeris, &from, &to, best).collect::<Result<Vec<_>, _>>()?;
+//! let eclipses = solar_eclipses(&ephemeris, from, to, best).collect::<Result<Vec<_>, _>>()?;
 //! assert_eq!(eclipses.len(), 2);
 //! let august = &eclipses[1];
 //! assert_eq!(august.kind, SolarKind::Total);

@@ -23,8 +23,8 @@ const MARGIN_DAYS: f64 = 0.5;
 /// in 2 s. After an error there is no further eclipse.
 pub fn lunar_eclipses(
     ephemeris: &Ephemeris,
-    from: &Instant,
-    to: &Instant,
+    from: Instant,
+    to: Instant,
     tolerance: Tolerance,
 ) -> impl Iterator<Item = Result<LunarEclipse, EclipseError>> {
     Search {
@@ -43,8 +43,8 @@ pub fn lunar_eclipses(
 /// Tolerance and errors as for [`lunar_eclipses`].
 pub fn solar_eclipses(
     ephemeris: &Ephemeris,
-    from: &Instant,
-    to: &Instant,
+    from: Instant,
+    to: Instant,
     tolerance: Tolerance,
 ) -> impl Iterator<Item = Result<SolarEclipse, EclipseError>> {
     Search {
