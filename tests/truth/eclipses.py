@@ -68,12 +68,17 @@ def complete():
 
 
 def contacts():
-    for body in ("moon", "sun"):
-        for kind, t in eclipses(body, year(2001), year(2031)):
-            # Moon: P1 P4 U1 U4 U2 U3. Sun: P1 P4, U1 U4, C1 C2 of the axis.
-            order = (6, 7, 2, 3, 4, 5) if body == "moon" else (2, 3, 4, 5, 6, 7)
-            cells = (f"{tt(t[i]):.6f}" if t[i] else "" for i in order)
-            yield f"{body},{kind},{tt(t[0]):.6f}," + ",".join(cells)
+    for kind, t in eclipses("moon", year(2001), year(2031)):
+        # P1 P4 U1 U4 U2 U3.
+        cells = (f"{tt(t[i]):.6f}" if t[i] else "" for i in (6, 7, 2, 3, 4, 5))
+        yield f"moon,{kind},{tt(t[0]):.6f}," + ",".join(cells)
+    for kind, t in eclipses("sun", year(2001), year(2031)):
+        greatest = tt(t[0])
+        day, fraction = np.floor(greatest), greatest - np.floor(greatest)
+        spans = (globe_contact(gap, day, fraction, side)
+                 for gap in (outer_gap, inner_gap, axis_gap) for side in (-1, 1))
+        cells = (f"{day + f:.7f}" if f else "" for f in spans)
+        yield f"sun,{kind},{greatest:.6f}," + ",".join(cells)
 
 
 def deep():
@@ -161,14 +166,70 @@ class Bessel:
         return np.degrees(np.arctan2(u, v)) % 360
 
 
-def bisect(f, low, high):
+def bisect(f, low, high, steps=40):
     sign = f(low) > 0
     if sign == (f(high) > 0):
         return None
-    for _ in range(40):
+    for _ in range(steps):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if (f(middle) > 0) == sign else (low, middle)
     return 0.5 * (low + high)
+
+
+# The globe, by brute force: what would a place near the rim of the Earth see?
+
+def rim_points(day, fraction):
+    """Sun, Moon, clearance of the axis, and points of the ellipsoid around the rim point nearest to it."""
+    sun, moon = (apparent(body, day, fraction) for body in ("sun", "moon"))
+    axis = (sun - moon) / np.linalg.norm(sun - moon)
+    foot = moon - (moon @ axis) * axis
+    squares = np.array([EARTH_KM, EARTH_KM, EARTH_KM * (1 - FLATTENING)]) ** 2
+    side = np.cross(axis, foot / np.linalg.norm(foot))
+
+    def point(normal):
+        return squares * normal / np.sqrt(normal @ (squares * normal))
+
+    # Around the rim in finer and finer steps, for the point where the axis is farthest out.
+    angle, width = 0.0, 0.5
+    out = foot / np.linalg.norm(foot)
+    clearance = lambda a: (foot - point(np.cos(a) * out + np.sin(a) * side)) @ (np.cos(a) * out + np.sin(a) * side)
+    for _ in range(30):
+        angle = max((angle + width * i for i in (-1, -0.5, 0, 0.5, 1)), key=clearance)
+        width *= 0.6
+    normal = np.cos(angle) * out + np.sin(angle) * side
+    tilts = np.radians(np.linspace(-1, 1, 41))
+    return sun, moon, clearance(angle), [point(np.cos(t) * normal + np.sin(t) * axis) for t in tilts]
+
+
+def discs(sun, moon, place, k):
+    s, m = sun - place, moon - place
+    separation = np.arctan2(np.linalg.norm(np.cross(s, m)), s @ m)
+    return separation, np.arcsin(SUN_KM / np.linalg.norm(s)), np.arcsin(k * EARTH_KM / np.linalg.norm(m))
+
+
+def outer_gap(day, fraction):
+    sun, moon, clearance, places = rim_points(day, fraction)
+    # Deep within, the rim is no place to look for the penumbra.
+    if clearance < -500:
+        return -1
+    return min(d - s - m for d, s, m in (discs(sun, moon, p, K_OUTER) for p in places))
+
+
+def inner_gap(day, fraction):
+    sun, moon, clearance, places = rim_points(day, fraction)
+    if clearance < -100:
+        return -1
+    sense = np.sign(clearance)
+    return min(sense * d - abs(s - m) for d, s, m in (discs(sun, moon, p, K_INNER) for p in places))
+
+
+def axis_gap(day, fraction):
+    return rim_points(day, fraction)[2]
+
+
+def globe_contact(gap, day, fraction, side):
+    f = lambda t: gap(day, t)
+    return bisect(f, fraction, fraction + side * 0.14, 26) if f(fraction) < 0 else None
 
 
 PLACES = {
@@ -196,7 +257,8 @@ def local():
         _, times, _ = swe.sol_eclipse_when_loc(t - 0.3, geopos, swe.FLG_SWIEPH)
         attr = swe.sol_eclipse_how(times[0], geopos, swe.FLG_SWIEPH)[1]
         day = np.floor(times[0])
-        bessel = Bessel(day, swe.deltat_ex(times[0], swe.FLG_SWIEPH), longitude, latitude, height)
+        delta_t = swe.deltat_ex(times[0], swe.FLG_SWIEPH)
+        bessel = Bessel(day, delta_t, longitude, latitude, height)
         middle = times[0] - day
         step = 1e-5
         slope = lambda f: bessel.magnitude(f + step) - bessel.magnitude(f - step)
@@ -214,7 +276,7 @@ def local():
         cells += [f"{angles[i]:.2f}" if angles[i] is not None else "" for i in (0, 1, 3, 4)]
         cells += [f"{bessel.magnitude(peak):.5f}", f"{attr[0]:.5f}", f"{attr[2]:.5f}"]
         cells += [f"{(attr[4] + 180) % 360:.4f}", f"{attr[5]:.4f}"]
-        yield f"{name},{latitude},{longitude},{height}," + ",".join(cells)
+        yield f"{name},{latitude},{longitude},{height},{delta_t * 86400:.3f}," + ",".join(cells)
 
 
 SWISS = "# Swiss Ephemeris 2.10.03 with the .se1 files of DE431; made by eclipses.py.\n"
@@ -222,8 +284,9 @@ SWISS = "# Swiss Ephemeris 2.10.03 with the .se1 files of DE431; made by eclipse
 write("eclipse_list.csv", SWISS + "# All eclipses 1901-2100. Kinds: N penumbral, P partial, T total, A annular, H hybrid.\n"
       "# magnitude: umbral, or the part of the Sun's diameter covered; second: penumbral, or Moon over Sun.\n"
       "body,kind,jd_tt,saros,magnitude,second\n", complete())
-write("eclipse_contacts.csv", SWISS + "# All eclipses 2001-2030, Julian dates in TT. Moon: P1 P4 U1 U4 U2 U3.\n"
-      "# Sun: penumbra P1 P4, umbra U1 U4, axis C1 C2.\n"
+write("eclipse_contacts.csv", "# All eclipses 2001-2030, Julian dates in TT; made by eclipses.py.\n"
+      "# Moon: P1 P4 U1 U4 U2 U3, Swiss Ephemeris 2.10.03. Sun: greatest by the same; penumbra P1 P4, umbra\n"
+      "# U1 U4, axis C1 C2 from DE440 and ERFA: when the first and the last place on WGS84 sees the discs touch.\n"
       "body,kind,greatest,outer_1,outer_2,umbra_1,umbra_2,inner_1,inner_2\n", contacts())
 write("eclipse_deep.csv", SWISS + "# An eclipse of each body in each century, -3000 to 2999; columns as in eclipse_list.csv.\n"
       "body,kind,jd_tt,saros,magnitude,second\n", deep())
@@ -232,5 +295,5 @@ write("eclipse_local.csv",
       "# c1 to c4, max, pa_1 to pa_4 (degrees), magnitude: Bessel's elements from DE440 and ERFA, Sun\n"
       "# 696000 km, k 0.2725076 (c1, c4, max, magnitude) and 0.272281 (c2, c3), WGS84.\n"
       "# swe_*: sol_eclipse_when_loc, sol_eclipse_how of the Swiss Ephemeris 2.10.03 (one k, 0.27252).\n"
-      "place,lat_deg,lon_deg,height_m,c1,c2,max,c3,c4,swe_c1,swe_c2,swe_max,swe_c3,swe_c4,"
+      "place,lat_deg,lon_deg,height_m,delta_t_s,c1,c2,max,c3,c4,swe_c1,swe_c2,swe_max,swe_c3,swe_c4,"
       "pa_1,pa_2,pa_3,pa_4,magnitude,swe_magnitude,swe_obscuration,swe_azimuth,swe_altitude\n", local())

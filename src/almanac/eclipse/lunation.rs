@@ -4,8 +4,9 @@
 //! *Astronomical Algorithms*, 2nd ed., eq. 49.1 to 49.7 and 54.1. No eclipse comes where the Moon
 //! stands farther from its node than `|sin F| = 0.36` (p. 380).
 //!
-//! *Accuracy.* Estimates are within ten minutes of the greatest eclipse from -4000 to +4000: enough to
-//! know where to look.
+//! *Accuracy.* Estimates are within six minutes of the greatest eclipse from -1500 on, within
+//! fourteen from -4000. Of 9520 eclipses of the Swiss Ephemeris, every other pair of centuries from
+//! -3990 to 3710, none lies beyond 0.352; where it knows the Saros (-3000 to 3000) ours is the same.
 
 use crate::time::{JulianDate, Tt};
 use crate::units::Angle;

@@ -121,3 +121,80 @@ impl<E> Search<'_, E> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Angle;
+
+    /// Starts of spans that are looked at, Julian dates: about -3995, -2000, 1000, 2000 and 3990.
+    const SPANS: [f64; 5] = [262_000.0, 990_600.0, 2_086_300.0, 2_451_500.0, 3_178_000.0];
+    const SPAN_DAYS: f64 = 4000.0;
+
+    fn instant(jd: f64) -> Instant {
+        Instant::from_tt(JulianDate::from_jd(jd)).unwrap()
+    }
+
+    #[test]
+    fn estimates_are_near_enough_for_one_track() {
+        let ephemeris = Ephemeris::analytic();
+        let mut eclipses = 0;
+        for start in SPANS {
+            let (from, to) = (instant(start), instant(start + SPAN_DAYS));
+            for eclipse in lunar_eclipses(&ephemeris, from, to, Angle::ZERO) {
+                let eclipse = eclipse.unwrap();
+                let lunation = Lunation { number: eclipse.lunation, phase: Phase::Full };
+                let off_days = (eclipse.greatest.tt - lunation.estimate()).abs();
+                assert!(off_days * 86_400.0 < OFF_MIDDLE_S, "{}", eclipse.greatest);
+                eclipses += 1;
+            }
+        }
+        assert!(eclipses > 100, "{eclipses}");
+    }
+
+    #[test]
+    fn far_from_the_node_no_eclipse_is_left_out() {
+        let ephemeris = Ephemeris::analytic();
+        let search = |from: Instant, to: Instant| Search::<SolarEclipse> {
+            ephemeris: &ephemeris,
+            tolerance: Angle::ZERO,
+            from: from.tt,
+            to: to.tt,
+            next: None,
+            axis_distance_squared: SolarEclipse::axis_distance_squared,
+            eclipse: SolarEclipse::of,
+        };
+        let (mut within, mut beyond) = (0, 0);
+        for start in SPANS {
+            let (from, to) = (instant(start), instant(start + SPAN_DAYS));
+            let mut lunation = Lunation::before(from.tt, Phase::New);
+            while lunation.estimate() < to.tt {
+                let found = search(from, to).look(lunation, lunation.estimate()).unwrap();
+                if lunation.is_near_node() {
+                    within += i32::from(found.is_some());
+                } else {
+                    assert!(found.is_none(), "{lunation:?}");
+                    beyond += 1;
+                }
+                lunation = lunation.next();
+            }
+        }
+        assert!(within > 100 && beyond > 400, "{within} {beyond}");
+    }
+
+    #[test]
+    fn spans_meet_without_gap_or_overlap() {
+        let ephemeris = Ephemeris::analytic();
+        let all = |from: f64, to: f64| -> Vec<JulianDate<Tt>> {
+            let found = solar_eclipses(&ephemeris, instant(from), instant(to), Angle::ZERO);
+            found.map(|eclipse| eclipse.unwrap().greatest.tt).collect()
+        };
+        let whole = all(2_451_545.0, 2_453_545.0);
+        // A border at a greatest eclipse: it belongs to the later span.
+        let border = whole[4].jd();
+        let (before, after) = (all(2_451_545.0, border), all(border, 2_453_545.0));
+        assert_eq!(before.len() + after.len(), whole.len());
+        assert!((4..=5).contains(&before.len()));
+        assert!(all(border + 1.0, border - 1.0).is_empty());
+    }
+}
