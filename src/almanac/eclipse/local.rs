@@ -76,18 +76,22 @@ impl Site {
     /// The stretches between two times in which the body is up.
     pub fn up(&self, track: &Track, from_s: f64, to_s: f64, choice: Choice) -> Vec<[f64; 2]> {
         let height = |t: f64| (self.dir(track, t, choice).altitude() - RISE_ALTITUDE).rad();
-        let looks = ((to_s - from_s) / LOOK_S).ceil().max(1.0) as usize;
-        let step_s = (to_s - from_s) / looks as f64;
+        let looks = ((to_s - from_s) / LOOK_S).ceil().max(1.0);
+        let step_s = (to_s - from_s) / looks;
         let mut stretches = Vec::new();
-        let mut risen = (height(from_s) > 0.0).then_some(from_s);
-        for look in 0..looks {
-            let start_s = from_s + step_s * look as f64;
-            // None where the horizon is not crossed in this step.
-            let Some(crossing) = root(height, start_s, start_s + step_s) else { continue };
-            match risen.take() {
-                Some(since) => stretches.push([since, crossing]),
-                None => risen = Some(crossing),
+        let mut was_up = height(from_s) > 0.0;
+        let mut risen = was_up.then_some(from_s);
+        for look in 1..=looks as usize {
+            let now_s = from_s + step_s * look as f64;
+            let is_up = height(now_s) > 0.0;
+            if is_up != was_up {
+                let crossing_s = root(height, now_s - step_s, now_s).unwrap_or(now_s);
+                match risen.take() {
+                    Some(since_s) => stretches.push([since_s, crossing_s]),
+                    None => risen = Some(crossing_s),
+                }
             }
+            was_up = is_up;
         }
         stretches.extend(risen.map(|since| [since, to_s]));
         stretches
