@@ -1,0 +1,3 @@
+//! What happens in the sky, and when.
+
+pub mod eclipse;
