@@ -129,6 +129,8 @@ fn all_ns(rows: &[Row]) -> f64 {
 
 fn fine_tier() -> Tier {
     Tier::De440(Depth::Hundredth)
+}
+
 /// Axes and rotation of the Earth by each form of nutation: the largest error against ERFA, and costs.
 fn earth_stands(rows: &[Row], baseline_ns: f64) {
     let nutations = match Catalogs::locate(None).and_then(|catalogs| Nutations::load(&catalogs)) {
@@ -168,8 +170,9 @@ fn earth_stands(rows: &[Row], baseline_ns: f64) {
             Instant::from_tt(JulianDate::from_jd(625_332.0 + 2_345.6 * f64::from(i))).ok()
         })
         .collect();
-    let all_ns =
-        each(&antiquity, |instant| Orientation::at(instant, &nutations.within(Angle::from_deg(1.0), instant.tt)));
+    let all_ns = each(&antiquity, |instant| {
+        Orientation::at(instant, &nutations.within(Angle::from_deg(1.0), instant.tt))
+    });
     let ratio = all_ns / baseline_ns;
     println!("the same in -3000 to -1400, to 1 degree {all_ns:45.0} {ratio:7.2}");
 }

@@ -104,7 +104,7 @@ pub fn run(
     let output = args.output.as_deref().filter(|path| *path != Path::new("-"));
     let format = format(args.format, output)?;
     let names = Names::read(catalogs)?;
-    let ephemeris = Ephemeris::load(catalogs)?;
+    let ephemeris = Ephemeris::load(catalogs, promise.tolerance())?;
     let table = Table { names: &names, ephemeris: &ephemeris, promise, quiet: args.quiet };
     match &args.rows {
         Some(path) => {

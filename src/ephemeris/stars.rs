@@ -138,10 +138,12 @@ fn julian_years(tdb: JulianDate<Tdb>) -> f64 {
 
 /// Bound of the error that the reduction adds to what the catalogue says, with the Earth of a tier.
 ///
-/// Its velocity tilts the direction: 0.011" where the Sun stands for the barycentre. The axes of date
-/// add 0.006" (see [`super::orientation`]).
+/// Its velocity tilts the direction: by 0.011" too much or too little where the Sun stands for the
+/// barycentre, as it does in the analytic tiers.
 pub const fn reduction_bound(tier: Tier) -> Angle {
     match tier {
+        Tier::De440(_) => Angle::from_arcsec(0.001),
+        Tier::De431 => Angle::from_arcsec(0.01),
         Tier::Paper => Angle::from_arcsec(0.2),
         Tier::Series => Angle::from_arcsec(0.03),
     }

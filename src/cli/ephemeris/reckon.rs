@@ -56,6 +56,16 @@ pub enum Promise {
     Within(Angle),
 }
 
+impl Promise {
+    /// What a theory must keep; nothing keeps zero, for which the best is taken.
+    pub fn tolerance(self) -> Angle {
+        match self {
+            Promise::TheBest => Angle::ZERO,
+            Promise::Within(tolerance) => tolerance,
+        }
+    }
+}
+
 /// The numbers of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
@@ -97,10 +107,7 @@ impl<'e> Reckoner<'e> {
             ));
         }
         let said = |error: EphemerisError| error.to_string();
-        let tolerance = match self.promise {
-            Promise::TheBest => Angle::ZERO,
-            Promise::Within(tolerance) => tolerance,
-        };
+        let tolerance = self.promise.tolerance();
         let observation = match &mut self.shared {
             Some((i, p, observation)) if i == instant && p == place => observation,
             shared => {

@@ -74,11 +74,14 @@ impl Nutations {
 
     /// The cheapest form whose error stays within the tolerance, else the best there is.
     pub fn choose(&self, tolerance: Tolerance, tt: JulianDate<Tt>) -> NutationForm {
-        let serves = |form: &NutationForm| {
-            let is_at_hand = *form != NutationForm::Interpolated || self.channel(tt).is_some();
-            is_at_hand && form.bound() <= tolerance
+        let is_at_hand =
+            |form: &NutationForm| *form != NutationForm::Interpolated || self.channel(tt).is_some();
+        let mut forms = NutationForm::ALL.into_iter().filter(is_at_hand);
+        let best = || {
+            let at_hand = NutationForm::ALL.into_iter().filter(is_at_hand);
+            at_hand.min_by(|a, b| a.bound().rad().total_cmp(&b.bound().rad()))
         };
-        NutationForm::ALL.into_iter().find(serves).unwrap_or(NutationForm::Iau2000a)
+        forms.find(|form| form.bound() <= tolerance).or_else(best).unwrap_or(NutationForm::Iau2000a)
     }
 
     /// Nutation in a form. Where there is no table, the whole series stands in for it.
