@@ -38,6 +38,16 @@ pub struct Ephemeris {
     nutations: Nutations,
 }
 
+/// Where a body was, and how it moved on until now.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Departure {
+    pub position: Pos<Icrs>,
+    /// Kilometres per second.
+    pub velocity_km_s: Pos<Icrs>,
+    /// How long ago.
+    pub before_s: f64,
+}
+
 /// Who serves a tier.
 enum Theory<'a> {
     Table(&'a SolarSystem, Depth),
@@ -140,24 +150,35 @@ impl Ephemeris {
         })
     }
 
-    /// A body where it is now and where it was `light_time_s(now)` seconds before, which may lie a
-    /// little outside the range of the tier.
+    /// A body near the moment when the light left it that arrives now, which may lie a little outside
+    /// the range of the tier.
     ///
     /// # Errors
     ///
     /// As [`Ephemeris::geometric`].
-    pub(super) fn now_and_before(
+    pub(super) fn departure(
         &self,
         body: Body,
         tdb: JulianDate<Tdb>,
         tier: Tier,
         light_time_s: impl FnOnce(Pos<Icrs>) -> f64,
-    ) -> Result<(Pos<Icrs>, Pos<Icrs>, f64), EphemerisError> {
+    ) -> Result<Departure, EphemerisError> {
         tier.check(body, tdb)?;
         let theory = self.theory(tier).ok_or(EphemerisError::NotLoaded { body, tier })?;
+        // Sun and Moon keep their distance: how long the light takes is known before.
+        let known_s = match body {
+            Body::Sun => Some(499.0),
+            Body::Moon => Some(1.28),
+            _ => None,
+        };
+        if let (Theory::Table(table, depth), Some(before_s)) = (&theory, known_s) {
+            let (position, velocity_km_s) = table.state(body, tdb.plus_seconds(-before_s), *depth);
+            return Ok(Departure { position, velocity_km_s, before_s });
+        }
         let now = theory.position(body, tdb);
         let before_s = light_time_s(now);
-        Ok((now, theory.position(body, tdb.plus_seconds(-before_s)), before_s))
+        let position = theory.position(body, tdb.plus_seconds(-before_s));
+        Ok(Departure { position, velocity_km_s: (now - position) * before_s.recip(), before_s })
     }
 
     /// Nutation within a tolerance, at the least cost.
