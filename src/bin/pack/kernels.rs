@@ -13,10 +13,15 @@ use nocturne::ephemeris::resampled::{Depth, LAYERS, Table};
 /// Dates at which a table is compared with its kernel.
 const DATES: u32 = 100_000;
 
+/// A table: its file, its kernel, and what makes the one out of the other.
+type Plan = (&'static str, &'static str, fn(&Path) -> Result<Packed, String>);
+
+const PLANS: &[Plan] = &[("de440.bin", "de440.bsp", de440)];
+
 /// Every table whose kernel lies in the directory.
 pub fn tables(kernels: &Path) -> Result<Vec<Packed>, String> {
     let mut packed = Vec::new();
-    for (file, kernel, pack) in [("de440.bin", "de440.bsp", de440 as fn(&Path) -> _)] {
+    for &(file, kernel, pack) in PLANS {
         let path = kernels.join(kernel);
         if path.is_file() {
             packed.push(pack(&path)?);
