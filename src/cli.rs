@@ -5,6 +5,7 @@
 //! go to standard output, progress to standard error.
 
 mod draw;
+mod ephemeris;
 mod error;
 mod look;
 mod objects;
@@ -48,6 +49,8 @@ enum Command {
     Place(place::PlaceArgs),
     /// List the Sun, the Moon, planets and stars: where they stand and how bright they are
     Objects(objects::ObjectsArgs),
+    /// Write tables of where bodies and stars are seen, of any length
+    Ephemeris(ephemeris::EphemerisArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -134,6 +137,7 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Render(args) => render::run(args, &catalogs, out),
         Command::Place(args) => place::run(args, &catalogs, out),
         Command::Objects(args) => objects::run(args, &catalogs, out),
+        Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
         #[cfg(feature = "gpu")]
         Command::Adapter => Ok(()),
     }
