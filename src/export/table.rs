@@ -9,6 +9,9 @@ mod text;
 
 use std::io::{self, Write};
 
+/// Room for the lines of a part: less than most parts take, so that few of them have to move.
+const PART_BYTES: usize = 1 << 17;
+
 /// How a table is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -79,7 +82,7 @@ impl Sheet {
     pub fn part(&self) -> Part {
         match self.format {
             Format::Parquet => Part::Columns(parquet::Rows::new(&self.columns)),
-            _ => Part::Lines(Vec::new()),
+            _ => Part::Lines(Vec::with_capacity(PART_BYTES)),
         }
     }
 

@@ -21,7 +21,7 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Places in [`KEYS`].
 const BODY: usize = 0;
-const UT1: std::ops::Range<usize> = 3..5;
+const UT1: [usize; 2] = [3, 4];
 
 /// Where the columns are.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,11 +43,9 @@ impl Header {
             slots.push(slot);
         }
         let lacks = |key: &usize| !slots.contains(&Some(*key));
-        let ut1_lacking = UT1.filter(lacks).count();
-        let needed = (0..KEYS.len()).filter(|key| ut1_lacking == UT1.len() && UT1.contains(key));
-        let optional: Vec<usize> = needed.collect();
+        let has_ut1 = !UT1.iter().all(lacks);
         let missing: Vec<&str> = (0..KEYS.len())
-            .filter(|key| lacks(key) && !optional.contains(key))
+            .filter(|key| lacks(key) && (has_ut1 || !UT1.contains(key)))
             .map(|key| KEYS[key])
             .collect();
         if !missing.is_empty() {
@@ -57,7 +55,7 @@ impl Header {
                 KEYS.join(",")
             ));
         }
-        Ok(Header { slots, has_ut1: ut1_lacking == 0 })
+        Ok(Header { slots, has_ut1 })
     }
 
     /// The cells of a line in the order of [`KEYS`].
@@ -156,7 +154,8 @@ impl RowBlock {
         names: &Names,
         mut row: impl FnMut(&RowAsked) -> Result<(), String>,
     ) -> Result<(), CliError> {
-        for (line, number) in self.text()?.lines().zip(self.first_line..) {
+        let (text, is_whole) = self.text();
+        for (line, number) in text.lines().zip(self.first_line..) {
             if is_passed_over(line) {
                 continue;
             }
@@ -164,15 +163,22 @@ impl RowBlock {
                 .and_then(|asked| row(&asked))
                 .map_err(|what| wrong(&self.source, number, &what))?;
         }
-        Ok(())
+        is_whole
     }
 
-    fn text(&self) -> Result<&str, CliError> {
-        std::str::from_utf8(&self.bytes).map_err(|error| {
-            let before = &self.bytes[..error.valid_up_to()];
-            let what = "is not UTF-8; save the file as UTF-8";
-            wrong(&self.source, self.first_line + count_lines(before), what)
-        })
+    /// The lines before the first that is not UTF-8, and whether that is all of them.
+    fn text(&self) -> (&str, Result<(), CliError>) {
+        match std::str::from_utf8(&self.bytes) {
+            Ok(text) => (text, Ok(())),
+            Err(error) => {
+                let before = &self.bytes[..error.valid_up_to()];
+                let line = self.first_line + count_lines(before);
+                let whole = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+                let text = std::str::from_utf8(&before[..whole]).unwrap_or_default();
+                let what = "is not UTF-8; save the file as UTF-8";
+                (text, Err(wrong(&self.source, line, what)))
+            }
+        }
     }
 }
 
@@ -193,7 +199,7 @@ fn count_lines(bytes: &[u8]) -> usize {
 fn read<'a>(line: &'a str, header: &Header, names: &Names) -> Result<RowAsked<'a>, String> {
     let cells = header.cells(line)?;
     let target = names.find(cells[BODY]).ok_or_else(|| unknown(cells[BODY]))?;
-    let has_ut1 = header.has_ut1 && !(cells[UT1.start].is_empty() && cells[UT1.end - 1].is_empty());
+    let has_ut1 = header.has_ut1 && UT1.iter().any(|key| !cells[*key].is_empty());
     let mut written = [""; KEY_NUMBERS];
     let mut numbers = [0.0; KEY_NUMBERS];
     for (index, (name, cell)) in KEYS.iter().zip(cells).enumerate().skip(1) {
@@ -220,8 +226,8 @@ fn read<'a>(line: &'a str, header: &Header, names: &Names) -> Result<RowAsked<'a
     };
     let instant = instant.map_err(|error| error.to_string())?;
     if !has_ut1 {
-        numbers[UT1.start - 1] = instant.ut1.day();
-        numbers[UT1.end - 2] = instant.ut1.fraction();
+        numbers[UT1[0] - 1] = instant.ut1.day();
+        numbers[UT1[1] - 1] = instant.ut1.fraction();
     }
     Ok(RowAsked { key: Key { body: cells[BODY], numbers, written, instant }, target, place })
 }
@@ -256,22 +262,21 @@ impl<R: Read> RowBlocks<R> {
         let (source, rest) = (source.into(), Vec::new());
         let mut blocks = RowBlocks { source, reader, header, block_bytes, next_line: 1, rest };
         while let Some(block) = blocks.next()? {
-            let text = block.text()?;
+            let (text, is_whole) = block.text();
             let unmarked = text.strip_prefix(BYTE_ORDER_MARK).filter(|_| block.first_line == 1);
             let text = unmarked.unwrap_or(text);
-            let Some((number, line)) =
-                text.lines().enumerate().find(|(_, line)| !is_passed_over(line))
-            else {
+            let mut lines = text.lines().zip(block.first_line..);
+            let Some((line, number)) = lines.find(|(line, _)| !is_passed_over(line)) else {
+                is_whole?;
                 continue;
             };
-            let number = block.first_line + number;
             blocks.header =
                 Header::read(line).map_err(|what| wrong(&block.source, number, &what))?;
             // What follows the head in this block comes again as the first rows.
-            let after = line.as_ptr() as usize - text.as_ptr() as usize + line.len();
-            let after = &text[after..];
-            let after = after.strip_prefix("\r\n").or(after.strip_prefix('\n')).unwrap_or(after);
-            blocks.rest.splice(..0, after.bytes());
+            let lines = number + 1 - block.first_line;
+            let ends = block.bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+            let after = ends.map(|(at, _)| at + 1).nth(lines - 1).unwrap_or(block.bytes.len());
+            blocks.rest.splice(..0, block.bytes[after..].iter().copied());
             blocks.next_line = number + 1;
             return Ok(blocks);
         }
@@ -312,6 +317,159 @@ impl<R: Read> RowBlocks<R> {
             self.next_line += count_lines(&bytes);
             let source = self.source.clone();
             return Ok((!bytes.is_empty()).then_some(RowBlock { source, first_line, bytes }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::LazyLock;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::catalog::Catalogs;
+
+    static NAMES: LazyLock<Names> =
+        LazyLock::new(|| Names::read(&Catalogs::locate(None).unwrap()).unwrap());
+
+    /// Body, numbers and UT1 of every row, or what is said of the first that is wrong.
+    fn read_all(file: &[u8], block_bytes: usize) -> Result<Vec<String>, String> {
+        let mut rows = Vec::new();
+        let mut collect = || -> Result<(), CliError> {
+            let mut blocks = RowBlocks::open("rows.csv".to_owned(), file, block_bytes)?;
+            let header = blocks.header().clone();
+            while let Some(block) = blocks.next()? {
+                block.for_each_row(&header, &NAMES, |row| {
+                    rows.push(format!("{} {:?}", row.key.body, row.key.numbers));
+                    Ok(())
+                })?;
+            }
+            Ok(())
+        };
+        let result = collect();
+        result.map_err(|error| error.message().unwrap_or_default())?;
+        Ok(rows)
+    }
+
+    #[test]
+    fn fields_are_cut_at_commas_that_are_not_quoted() {
+        let cut = |line| fields(line).collect::<Result<Vec<_>, _>>();
+        assert_eq!(cut("a,b,,c").unwrap(), ["a", "b", "", "c"]);
+        assert_eq!(cut(" a , \"b, \"\"c\"\"\" ,d").unwrap(), ["a", "b, \"\"c\"\"", "d"]);
+        assert_eq!(cut("a\"b,c").unwrap(), ["a\"b", "c"]);
+        assert_eq!(cut("").unwrap(), [""]);
+        assert_eq!(cut("a,").unwrap(), ["a", ""]);
+        assert_eq!(cut("\"\",\"\"").unwrap(), ["", ""]);
+        for wrong in ["\"a", "a,\"b", "\"a\"b,c", "\"a\"\""] {
+            assert!(cut(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_line_without_an_end_is_not_read_for_ever() {
+        let message = read_all(&vec![b'x'; 3 << 20], 1 << 16).unwrap_err();
+        assert!(message.contains("line 1") && message.contains("longer"), "{message}");
+    }
+
+    /// Pieces of files, good and bad.
+    fn piece() -> impl Strategy<Value = &'static str> {
+        proptest::sample::select(vec![
+            "moon",
+            "sirius",
+            "2451545.5",
+            "-0.25",
+            "0",
+            "90",
+            "361",
+            ",",
+            ",",
+            ",",
+            ",",
+            "\n",
+            "\r\n",
+            "\"",
+            "#",
+            " ",
+            "NaN",
+            "1e400",
+            "é",
+            "\u{feff}",
+            "body",
+            "height_m",
+            "moon,2451545.5,0.1,2451545.5,0.1,7,50,100\n",
+            "mars,2451545.5,0.1,,,7,50,100\n",
+        ])
+    }
+
+    /// A number as people write numbers.
+    fn written(range: std::ops::Range<f64>) -> impl Strategy<Value = String> {
+        (range, 0..9usize).prop_map(|(number, places)| format!("{number:.places$}"))
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_the_file_the_size_of_the_blocks_is_no_matter(
+            pieces in prop::collection::vec(piece(), 0..60),
+            has_head: bool,
+            cut in prop::option::of(0..400usize),
+            block_bytes in 1..200usize,
+        ) {
+            let head = if has_head { KEYS.join(",") + "\n" } else { String::new() };
+            let mut file = (head + &pieces.concat()).into_bytes();
+            // Anywhere, within letters of two bytes too.
+            file.truncate(cut.unwrap_or(usize::MAX));
+            prop_assert_eq!(read_all(&file, block_bytes), read_all(&file, 1 << 20));
+        }
+
+        #[test]
+        fn bytes_that_are_no_table_are_refused_in_a_sentence(
+            file in prop::collection::vec(any::<u8>(), 0..300),
+        ) {
+            let message = read_all(&file, 64).unwrap_err();
+            prop_assert!(message.starts_with("rows.csv"), "{message}");
+        }
+
+        #[test]
+        fn rows_are_read_as_they_were_written(
+            order in Just((0..KEYS.len() + 2).collect::<Vec<_>>()).prop_shuffle(),
+            rows in prop::collection::vec(
+                (
+                    proptest::sample::select(vec!["Sun", "pluto", "HR 1"]),
+                    written(2_400_000.0..2_500_000.0),
+                    written(-0.5..0.5),
+                    (written(-180.0..360.0), written(-90.0..90.0), written(-400.0..9000.0)),
+                    any::<[bool; 3]>(),
+                ),
+                1..20,
+            ),
+        ) {
+            // Two columns of others among ours.
+            let name = |key: &usize| *KEYS.get(*key).unwrap_or(&["note", "utc_iso"][key % 2]);
+            let mut file = order.iter().map(name).collect::<Vec<_>>().join(",") + "\n";
+            let mut expected = Vec::new();
+            for (body, day, fraction, (lon, lat, height), [is_quoted, is_blank, has_comment]) in &rows {
+                let cells =
+                    [*body, day, fraction, day, fraction, lon, lat, height, "\"a, b\"", "#"];
+                let cell = |key: &usize| match (cells[*key], is_quoted) {
+                    (cell, true) if *key < KEYS.len() => format!("\"{cell}\""),
+                    (cell, _) if *is_blank => format!(" {cell}\t"),
+                    (cell, _) => cell.to_owned(),
+                };
+                if *has_comment {
+                    file += "# a comment, with a comma\n\n";
+                }
+                // A line must not begin like a comment.
+                let mut line = order.iter().map(cell).collect::<Vec<_>>().join(",");
+                if line.trim_start().starts_with('#') {
+                    line.insert(0, '-');
+                }
+                file += &(line + "\n");
+                let numbers: Vec<f64> =
+                    cells[1..KEYS.len()].iter().map(|cell| cell.parse().unwrap()).collect();
+                expected.push(format!("{body} {numbers:?}"));
+            }
+            prop_assert_eq!(read_all(file.as_bytes(), 1 << 16), Ok(expected));
         }
     }
 }

@@ -78,3 +78,76 @@ pub fn run<B: Send>(
 fn whole(results: Vec<Result<Part, CliError>>) -> Result<Vec<Part>, CliError> {
     results.into_iter().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::table::{Cell, Column, Format, Kind};
+
+    fn sheet() -> Sheet {
+        let columns = vec![Column { name: "number", kind: Kind::Exact }];
+        Sheet { columns, format: Format::Csv }
+    }
+
+    /// A table of the numbers below `end`, of which `bad` are refused.
+    fn table(end: usize, bad: &[usize], out: &mut Vec<u8>) -> Result<(), Stopped> {
+        let sheet = sheet();
+        let mut numbers = 0..end;
+        run(
+            &sheet,
+            out,
+            || Ok(numbers.next()),
+            |number| {
+                if bad.contains(&number) {
+                    return Err(CliError::Usage(number.to_string()));
+                }
+                let mut part = sheet.part();
+                sheet.add(&mut part, &[Cell::Number(number as f64)]);
+                Ok(part)
+            },
+        )
+    }
+
+    #[test]
+    fn blocks_come_out_in_the_order_in_which_they_went_in() {
+        for end in [0, 1, 7, 1000] {
+            let mut out = Vec::new();
+            table(end, &[], &mut out).unwrap();
+            let expected: String = (0..end).map(|number| format!("{number}\n")).collect();
+            assert_eq!(String::from_utf8(out).unwrap(), format!("number\n{expected}"));
+        }
+    }
+
+    #[test]
+    fn the_first_error_is_told_and_early_ones_write_nothing() {
+        let mut out = Vec::new();
+        let Err(Stopped::Refused(error)) = table(1000, &[5, 3, 900], &mut out) else {
+            panic!("not refused");
+        };
+        assert_eq!(error.message().unwrap(), "3");
+        assert!(out.is_empty());
+    }
+
+    #[test]
+    fn an_output_that_takes_nothing_stops_the_work() {
+        struct Full;
+        impl Write for Full {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let sheet = sheet();
+        let mut blocks = 0;
+        let endless = || {
+            blocks += 1;
+            Ok(Some(()))
+        };
+        let stopped = run(&sheet, &mut Full, endless, |()| Ok(sheet.part()));
+        assert!(matches!(stopped, Err(Stopped::Unwritten(error))
+            if error.kind() == io::ErrorKind::BrokenPipe));
+        assert!(blocks < 1000, "{blocks}");
+    }
+}

@@ -2,7 +2,8 @@
 //!
 //! *Format.* apache/parquet-format 2.10: row groups of plain pages without compression, every column
 //! optional, and a footer in the compact protocol of Thrift. Nothing else of the format is used, so
-//! that a crate of a minute's building is not needed for it.
+//! that a crate of a minute's building is not needed for it. `tests/truth/read_parquet.py` has pyarrow
+//! read a table and compares it with the same table in CSV.
 //!
 //! ```text
 //! "PAR1"  { column chunk: { page header, definition levels, values }* }*  footer  length  "PAR1"
@@ -10,7 +11,7 @@
 
 use std::io::{self, Write};
 
-use super::{Cell, Column, Kind};
+use super::{Cell, Column};
 
 const MAGIC: &[u8; 4] = b"PAR1";
 const CREATED_BY: &str = concat!("nocturne version ", env!("CARGO_PKG_VERSION"));
@@ -49,7 +50,7 @@ impl Rows {
 
     pub fn add(&mut self, cells: &[Cell]) {
         for (values, cell) in self.columns.iter_mut().zip(cells) {
-            if self.count % 8 == 0 {
+            if self.count.is_multiple_of(8) {
                 values.present.push(0);
             }
             match (*cell, values.is_text) {

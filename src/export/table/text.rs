@@ -37,19 +37,31 @@ fn csv_text(out: &mut Vec<u8>, text: &str) {
 pub fn json_line(out: &mut Vec<u8>, columns: &[Column], cells: &[Cell]) {
     out.push(b'{');
     for (column, cell) in columns.iter().zip(cells) {
-        json_text(out, column.name);
-        out.push(b':');
+        // Names of columns hold nothing that JSON would have escaped.
+        out.push(b'"');
+        out.extend_from_slice(column.name.as_bytes());
+        out.extend_from_slice(b"\":");
         match *cell {
             Cell::Blank => out.extend_from_slice(b"null"),
             Cell::Text(text) => json_text(out, text),
             Cell::Number(value) => number(out, column.kind, value),
-            // What people write may be no number of JSON: ".5", "+1".
+            Cell::Written(text, _) if is_json_number(text) => {
+                out.extend_from_slice(text.as_bytes());
+            }
             Cell::Written(_, value) => number(out, Kind::Exact, value),
         }
         out.push(b',');
     }
     out.pop();
     out.extend_from_slice(b"}\n");
+}
+
+/// Whether JSON has this for a number: people write ".5", "+1" and "007" too.
+fn is_json_number(text: &str) -> bool {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, "0"));
+    let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    is_digits(whole) && is_digits(part) && (whole.len() == 1 || !whole.starts_with('0'))
 }
 
 fn json_text(out: &mut Vec<u8>, text: &str) {
@@ -156,6 +168,16 @@ mod tests {
         assert_eq!(csv_head(&COLUMNS), b"body,jd,ra_deg,dist_km\n");
         let head = String::from_utf8(aligned_head(&COLUMNS)).unwrap();
         assert_eq!(head, "body                jd          ra_deg          dist_km\n");
+    }
+
+    #[test]
+    fn numbers_are_repeated_where_json_has_them() {
+        for number in ["0", "-0.5", "10.25", "2451545"] {
+            assert!(is_json_number(number), "{number}");
+        }
+        for other in ["", "-", ".5", "5.", "+1", "007", "1e5", "0x1", "1.2.3", "NaN", "--1"] {
+            assert!(!is_json_number(other), "{other}");
+        }
     }
 
     #[test]
