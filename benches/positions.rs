@@ -10,6 +10,7 @@ use std::time::Instant as Clock;
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
+use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
 use nocturne::ephemeris::{Body, EarthState, Ephemeris, Tier};
 use nocturne::frame::{Dir, TrueOfDate};
 use nocturne::place::Place;
@@ -69,6 +70,12 @@ fn main() {
             let sky = sky(&rows[0], BEST);
             let ns = median_ns(1, || drop(black_box(sky.stars(black_box(&stars)))));
             line(&format!("SkyState::stars, each of {}", stars.len()), ns / stars.len() as f64);
+            let row = &rows[0];
+            let reduction = StarReduction::new(&observer(row), &earth_of(row, Tier::Series));
+            let motions: Vec<SpaceMotion> = stars.iter().map(SpaceMotion::from).collect();
+            let all = || reduction.horizon_all(black_box(&motions).iter().copied());
+            let ns = median_ns(1, || drop(black_box(all())));
+            line("the same, their motions worked out before", ns / stars.len() as f64);
         }
         Err(error) => println!("no stars: {error}"),
     }
