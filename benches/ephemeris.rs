@@ -14,8 +14,8 @@ use std::time::Instant as Clock;
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
-use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
 use nocturne::ephemeris::orientation::{NutationForm, Nutations, Orientation};
+use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
 use nocturne::ephemeris::{Body, Depth, EarthState, Ephemeris, Observation, Tier};
 use nocturne::frame::{Dir, TrueOfDate};
 use nocturne::place::Place;
