@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use nocturne::catalog::Catalogs;
-use nocturne::ephemeris::EarthState;
 use nocturne::ephemeris::apparent::Observer;
 use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
+use nocturne::ephemeris::{EarthState, Ephemeris};
 use nocturne::frame::{Dir, Icrs, Pos};
 use nocturne::place::Place;
 use nocturne::time::{Instant, JulianDate};
+use nocturne::units::Angle;
 
 const ERFA: &str = include_str!("truth/stars_erfa.csv");
 
