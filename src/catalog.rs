@@ -148,6 +148,11 @@ impl Catalogs {
         }
     }
 
+    /// The error that a file which was read says nothing sensible.
+    pub fn damaged(&self, file: &str, what: String) -> CatalogError {
+        CatalogError::Damaged { path: self.directory.join(file), what }
+    }
+
     fn read<T>(
         &self,
         file: &str,

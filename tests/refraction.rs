@@ -62,8 +62,22 @@ fn airs() -> Vec<ObserverAir> {
         ObserverAir { height_m: 100_000.0, pressure_mbar: 3e-4, temperature_c: -80.0, ..PULKOVO },
         ObserverAir { height_m: -430.0, pressure_mbar: 1060.0, temperature_c: 40.0, ..PULKOVO },
         ObserverAir { pressure_mbar: 1100.0, temperature_c: -90.0, ..PULKOVO },
-        ObserverAir { temperature_c: 60.0, relative_humidity: 1.0, wavelength_nm: 300.0, ..PULKOVO },
+        ObserverAir {
+            temperature_c: 60.0,
+            relative_humidity: 1.0,
+            wavelength_nm: 300.0,
+            ..PULKOVO
+        },
         ObserverAir { pressure_mbar: 0.0, ..PULKOVO },
+        // More vapour than there is room for.
+        ObserverAir { pressure_mbar: 2.0, relative_humidity: 1.0, ..PULKOVO },
+        ObserverAir {
+            height_m: 8000.0,
+            pressure_mbar: 330.0,
+            temperature_c: 60.0,
+            relative_humidity: 1.0,
+            ..PULKOVO
+        },
     ];
     airs.extend(rows().iter().map(|row| row.air).step_by(12));
     airs
@@ -190,7 +204,8 @@ fn true_and_apparent_invert_each_other_for_every_air() {
 fn refraction_grows_without_a_step_down_to_the_horizon_and_on() {
     for air in airs() {
         let rays = traced(&air);
-        let deg = |altitude_deg: f64| rays.at_apparent_altitude(Angle::from_deg(altitude_deg)).deg();
+        let deg =
+            |altitude_deg: f64| rays.at_apparent_altitude(Angle::from_deg(altitude_deg)).deg();
         let horizon = rays.horizon().deg();
         let step = 1e-5;
         let slope = |at: f64| (deg(at + step) - deg(at - step)) / (2.0 * step);

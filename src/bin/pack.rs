@@ -9,10 +9,13 @@ use std::process::ExitCode;
 use clap::Parser;
 use nocturne::catalog::pack::{self, Packed, SOURCES_FILE};
 use nocturne::catalog::sha256_hex;
+use nocturne::ephemeris::moon_orientation::{self, LIBRATION_FILE};
 use nocturne::export::OutputFile;
 
 /// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
 const MOON_PICTURE: &str = "moon_lroc_color_4096x2048.jpg";
+/// Nor are the librations of DE421: `scripts/fetch_kernels.sh` puts them here.
+const LIBRATIONS: &str = "target/kernels/de421/jpl-librations.npy";
 
 /// Pack the raw tables into the catalogues that nocturne reads.
 #[derive(Parser)]
@@ -27,6 +30,10 @@ struct Args {
     /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
     #[arg(long, value_name = "FILE")]
     moon: Option<PathBuf>,
+    /// Librations of DE421; without them the packed table stays as it is
+    /// [default: target/kernels/de421/jpl-librations.npy, if it is there]
+    #[arg(long, value_name = "FILE")]
+    librations: Option<PathBuf>,
     /// Write nothing; say whether packing gives the same bytes.
     #[arg(long)]
     check: bool,
@@ -55,6 +62,10 @@ fn run(args: &Args) -> Result<bool, String> {
             "moon_albedo.bin: no {MOON_PICTURE} among the raw tables, the packed map stays as it is"
         ),
     }
+    match fetched(&args.librations, LIBRATIONS) {
+        Some(path) => packed.push(librations(&path)?),
+        None => println!("{LIBRATION_FILE}: no {LIBRATIONS}, the packed table stays as it is"),
+    }
     if args.check {
         return Ok(check(&args.out, &packed));
     }
@@ -73,6 +84,19 @@ fn moon(raw: &Path, picture: &Path) -> Result<Packed, String> {
         .into_rgb8();
     let size = (rgb.width() as usize, rgb.height() as usize);
     pack::moon(raw, rgb.as_raw(), size).map_err(|error| error.to_string())
+}
+
+/// The file that was given, else the usual one if it is there.
+fn fetched(given: &Option<PathBuf>, usual: &str) -> Option<PathBuf> {
+    given.clone().or_else(|| Some(PathBuf::from(usual)).filter(|path| path.is_file()))
+}
+
+fn librations(path: &Path) -> Result<Packed, String> {
+    let named = |what: String| format!("{} {what}; fetch it again", path.display());
+    let npy = fs::read(path).map_err(|error| named(format!("cannot be read: {error}")))?;
+    let table = moon_orientation::pack(&npy).map_err(named)?;
+    let summary = format!("within {:.3}\" of DE421", table.largest_error.arcsec());
+    Ok(Packed { file: LIBRATION_FILE, bytes: table.bytes, summary })
 }
 
 fn check(out: &Path, packed: &[Packed]) -> bool {

@@ -146,6 +146,11 @@ impl Table {
         self.channels.iter().find(|channel| channel.id() == id)
     }
 
+    /// The channels themselves, in the order of the file.
+    pub fn into_channels(self) -> Vec<Channel> {
+        self.channels
+    }
+
     /// All channels, in the order of the file.
     pub fn channels(&self) -> impl Iterator<Item = &Channel> {
         self.channels.iter()
@@ -257,6 +262,12 @@ impl Channel {
 fn moment(recipe: &Recipe, segment: usize, x: f64) -> JulianDate<Tdb> {
     let begin = segment as f64 * recipe.segment_days;
     JulianDate::from_parts(recipe.start_jd + begin, 0.5 * (1.0 + x) * recipe.segment_days)
+}
+
+impl fmt::Debug for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Channel({:?})", self.id())
+    }
 }
 
 impl fmt::Debug for Table {

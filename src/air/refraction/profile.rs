@@ -3,8 +3,8 @@
 //! *Theory.* Temperature as in the US Standard Atmosphere 1976, warmer or colder by the same amount
 //! at every height, so that it is right at the observer; pressure in hydrostatic balance with it.
 //! Water vapour falls in the troposphere as the power 18.36 of the temperature (Hohenkerk & Sinclair
-//! 1985, *NAO Technical Note* 63, which has the closed form of the pressure), above it and below the
-//! observer it keeps its share of the molecules.
+//! 1985, *NAO Technical Note* 63, which has the closed form of the pressure); above it, or if the
+//! observer is above it, vapour keeps its share of the molecules.
 //!
 //! *What is left out.* Inversions, the weather, the latitude (gravity by 0.3 %, the curvature of the
 //! ground by 0.3 %).
@@ -17,6 +17,8 @@ use crate::air::standard::{
 
 /// Power of the temperature by which the pressure of vapour falls (Hohenkerk & Sinclair 1985).
 const VAPOUR_POWER: f64 = 18.36;
+/// The same for the pressure of dry air in the troposphere.
+const DRY_POWER: f64 = -HYDROSTATIC_K_PER_KM / LAYERS[0].slope_k_per_km;
 /// How much lighter than dry air vapour is.
 const LIGHTNESS: f64 = 1.0 - WATER_KG_MOL / DRY_AIR_KG_MOL;
 const ICE_POINT_K: f64 = 273.15;
@@ -40,21 +42,17 @@ pub struct ObserverAir {
 pub(super) struct Profile {
     layers: [Layer; LAYERS.len()],
     refractivity: Refractivity,
-    /// The observer in the troposphere, where vapour thins out upwards.
+    /// Where vapour thins out upwards, if the observer stands in it.
     troposphere: Option<Troposphere>,
-    /// Share of vapour in the molecules: below the observer, and above the troposphere.
-    share_below: f64,
-    share_above: f64,
+    /// Share of vapour in the molecules elsewhere.
+    share: f64,
 }
 
 /// What the closed form of the pressure asks for (Hohenkerk & Sinclair 1985, eq. 13).
 struct Troposphere {
-    observer_km: f64,
     observer_k: f64,
     observer_mbar: f64,
     vapour_mbar: f64,
-    /// Power of the temperature by which the pressure of dry air falls.
-    dry_power: f64,
     /// What the lightness of vapour adds to the pressure, millibars.
     lightness_mbar: f64,
 }
@@ -71,91 +69,85 @@ impl Profile {
     pub fn over(air: &ObserverAir) -> Profile {
         let observer_km = geopotential_km(air.height_m / 1000.0);
         let observer_k = air.temperature_c + ICE_POINT_K;
-        let vapour_mbar = vapour_mbar(air.pressure_mbar, observer_k, air.relative_humidity);
-        let share = if air.pressure_mbar > 0.0 { vapour_mbar / air.pressure_mbar } else { 0.0 };
         let at = layer_at(observer_km);
         let warmer_k = observer_k - LAYERS[at].temperature_k(observer_km);
+        let layers = LAYERS.map(|layer| Layer { base_k: layer.base_k + warmer_k, ..layer });
+        // No more than half of the molecules of the air, here and down at the sea.
+        let growth = if at == 0 { (layers[0].base_k / observer_k).max(1.0) } else { 1.0 };
+        let most_mbar = 0.5 * air.pressure_mbar * growth.powf(DRY_POWER - VAPOUR_POWER);
+        let vapour_mbar =
+            vapour_mbar(air.pressure_mbar, observer_k, air.relative_humidity).min(most_mbar);
+        let share = share_of(vapour_mbar, air.pressure_mbar);
         let mut profile = Profile {
-            layers: LAYERS.map(|layer| Layer { base_k: layer.base_k + warmer_k, ..layer }),
+            layers,
             refractivity: Refractivity::at(
                 air.wavelength_nm,
                 air.pressure_mbar,
                 observer_k,
                 vapour_mbar,
             ),
-            troposphere: (at == 0).then(|| Troposphere::over(air, observer_km, vapour_mbar)),
-            share_below: share,
-            share_above: share,
+            troposphere: (at == 0).then(|| Troposphere {
+                observer_k,
+                observer_mbar: air.pressure_mbar,
+                vapour_mbar,
+                lightness_mbar: LIGHTNESS * vapour_mbar * DRY_POWER / (VAPOUR_POWER - DRY_POWER),
+            }),
+            share,
         };
         // Downwards from the observer, then upwards, each layer from the end of the one before.
-        let mut known_mbar = air.pressure_mbar;
-        let mut known_km = observer_km;
+        let (mut known_mbar, mut known_km) = (air.pressure_mbar, observer_km);
         for layer in profile.layers[..=at].iter_mut().rev() {
             known_mbar /= pressure_ratio(layer, known_km, share);
             known_km = layer.base_km;
             layer.base_mbar = known_mbar;
         }
         for above in at + 1..profile.layers.len() {
-            let below = profile.layers[above - 1];
             let end_km = profile.layers[above].base_km;
-            profile.layers[above].base_mbar = match &profile.troposphere {
-                Some(troposphere) if above == 1 => {
-                    let pressures = troposphere.pressures(below.temperature_k(end_km), &below);
-                    profile.share_above = if pressures.air > 0.0 { pressures.vapour / pressures.air } else { 0.0 };
-                    pressures.air
-                }
-                _ => below.base_mbar * pressure_ratio(&below, end_km, profile.share_above),
-            };
+            let end = profile.pressures_in(above - 1, end_km);
+            profile.layers[above].base_mbar = end.air;
+            profile.share = share_of(end.vapour, end.air);
         }
         profile
     }
 
-    fn pressures(&self, geopotential_km: f64) -> (Pressures, f64, f64) {
-        let at = layer_at(geopotential_km);
+    fn pressures_in(&self, at: usize, geopotential_km: f64) -> Pressures {
         let layer = &self.layers[at];
         let temperature_k = layer.temperature_k(geopotential_km);
-        let pressures = match &self.troposphere {
-            Some(troposphere) if at == 0 && geopotential_km >= troposphere.observer_km => {
-                troposphere.pressures(temperature_k, layer)
-            }
+        match &self.troposphere {
+            Some(troposphere) if at == 0 => troposphere.pressures(temperature_k),
             _ => {
-                let share = if at == 0 { self.share_below } else { self.share_above };
-                let air = layer.base_mbar * pressure_ratio(layer, geopotential_km, share);
-                let air_slope = -hydrostatic_k_per_km(share) / temperature_k * air;
-                Pressures { air, air_slope, vapour: share * air, vapour_slope: share * air_slope }
+                let air = layer.base_mbar * pressure_ratio(layer, geopotential_km, self.share);
+                let air_slope = -hydrostatic_k_per_km(self.share) / temperature_k * air;
+                Pressures {
+                    air,
+                    air_slope,
+                    vapour: self.share * air,
+                    vapour_slope: self.share * air_slope,
+                }
             }
-        };
-        (pressures, temperature_k, layer.slope_k_per_km)
+        }
     }
 }
 
 impl RefractiveAir for Profile {
     fn bending_at(&self, height_km: f64) -> Bending {
-        let (p, temperature_k, slope_k_per_km) = self.pressures(geopotential_km(height_km));
+        let geopotential_km = geopotential_km(height_km);
+        let at = layer_at(geopotential_km);
+        let temperature_k = self.layers[at].temperature_k(geopotential_km);
+        let p = self.pressures_in(at, geopotential_km);
         let refractivity = self.refractivity.of(p.air, p.vapour, temperature_k);
         let of_pressures = self.refractivity.of(p.air_slope, p.vapour_slope, temperature_k);
-        let slope = of_pressures - refractivity * slope_k_per_km / temperature_k;
-        Bending { refractivity, slope_per_km: slope * geopotential_slope(height_km) }
+        let of_warmth = refractivity * self.layers[at].slope_k_per_km / temperature_k;
+        let slope_per_km = (of_pressures - of_warmth) * geopotential_slope(height_km);
+        Bending { refractivity, slope_per_km }
     }
 }
 
 impl Troposphere {
-    fn over(air: &ObserverAir, observer_km: f64, vapour_mbar: f64) -> Troposphere {
-        let dry_power = -HYDROSTATIC_K_PER_KM / LAYERS[0].slope_k_per_km;
-        Troposphere {
-            observer_km,
-            observer_k: air.temperature_c + ICE_POINT_K,
-            observer_mbar: air.pressure_mbar,
-            vapour_mbar,
-            dry_power,
-            lightness_mbar: LIGHTNESS * vapour_mbar * dry_power / (VAPOUR_POWER - dry_power),
-        }
-    }
-
-    /// Above the observer, where the air is as warm as given.
-    fn pressures(&self, temperature_k: f64, layer: &Layer) -> Pressures {
+    /// Where the air is as warm as given.
+    fn pressures(&self, temperature_k: f64) -> Pressures {
         let logarithm = (temperature_k / self.observer_k).ln();
-        let dry = (self.dry_power * logarithm).exp();
+        let dry = (DRY_POWER * logarithm).exp();
         let wet = (VAPOUR_POWER * logarithm).exp();
         let air = self.observer_mbar * dry + self.lightness_mbar * (dry - wet);
         let vapour = self.vapour_mbar * wet;
@@ -163,9 +155,14 @@ impl Troposphere {
             air,
             air_slope: -HYDROSTATIC_K_PER_KM / temperature_k * (air - LIGHTNESS * vapour),
             vapour,
-            vapour_slope: VAPOUR_POWER * layer.slope_k_per_km / temperature_k * vapour,
+            vapour_slope: VAPOUR_POWER * LAYERS[0].slope_k_per_km / temperature_k * vapour,
         }
     }
+}
+
+/// Share of the vapour in the molecules.
+fn share_of(vapour_mbar: f64, pressure_mbar: f64) -> f64 {
+    if pressure_mbar > 0.0 { vapour_mbar / pressure_mbar } else { 0.0 }
 }
 
 /// Weight of air of a molar mass lessened by its share of vapour, kelvin per geopotential kilometre.
@@ -199,8 +196,11 @@ mod tests {
     const HUMID: ObserverAir =
         ObserverAir { height_m: 800.0, temperature_c: 28.0, relative_humidity: 0.9, ..STANDARD };
 
+    fn pressures(profile: &Profile, geopotential_km: f64) -> Pressures {
+        profile.pressures_in(layer_at(geopotential_km), geopotential_km)
+    }
     fn mbar(profile: &Profile, height_km: f64) -> f64 {
-        profile.pressures(geopotential_km(height_km)).0.air
+        pressures(profile, geopotential_km(height_km)).air
     }
 
     #[test]
@@ -227,9 +227,10 @@ mod tests {
             let profile = Profile::over(&air);
             for height_km in [0.1, 0.79, 0.81, 5.0, 10.0, 12.0, 25.0, 49.0, 75.0] {
                 let step_km = 1e-3;
-                let at = |km: f64| profile.pressures(geopotential_km(km)).0;
+                let at = |km: f64| pressures(&profile, geopotential_km(km));
                 let (above, below) = (at(height_km + step_km), at(height_km - step_km));
-                let stretch = geopotential_km(height_km + step_km) - geopotential_km(height_km - step_km);
+                let stretch =
+                    geopotential_km(height_km + step_km) - geopotential_km(height_km - step_km);
                 let here = at(height_km);
                 for (slope, wanted) in [
                     ((above.air - below.air) / stretch, here.air_slope),
@@ -253,7 +254,7 @@ mod tests {
         for air in [STANDARD, HUMID] {
             let profile = Profile::over(&air);
             for layer in &profile.layers[1..] {
-                let at = |km: f64| profile.pressures(km).0;
+                let at = |km: f64| pressures(&profile, km);
                 let (below, above) = (at(layer.base_km - 1e-9), at(layer.base_km + 1e-9));
                 assert!((below.air / above.air - 1.0).abs() < 1e-8, "{} km", layer.base_km);
                 assert!((below.vapour - above.vapour).abs() < 1e-8, "{} km", layer.base_km);

@@ -8,6 +8,9 @@
 //! refraction against the apparent altitude; a second one against the true altitude starts Newton's
 //! method on the first, so that the two directions are inverse to the last digits.
 //!
+//! *Accuracy.* Within 0.0002" of the rays themselves for observers below 11 km; within 0.3" from
+//! higher up, where rays dip through the tropopause. What the air leaves out is in `profile.rs`.
+//!
 //! *Below the horizon* nothing is seen. The refraction is carried on with the same slope, levels off
 //! within a degree and falls to zero at the nadir: a choice, made so that every direction has one
 //! image.
@@ -56,7 +59,10 @@ impl Traced {
         for low_km in [ground_km, height_km] {
             let slope = profile.bending_at(low_km).scaled_radius_slope(low_km);
             if slope < LEAST_SLOPE {
-                return Err(AirError::Duct { pressure_mbar: air.pressure_mbar, height_m: air.height_m });
+                return Err(AirError::Duct {
+                    pressure_mbar: air.pressure_mbar,
+                    height_m: air.height_m,
+                });
             }
         }
         let horizon = profile.horizon_altitude(height_km);
@@ -70,7 +76,9 @@ impl Traced {
         let true_horizon_deg = horizon.deg() - refraction_deg;
         let by_true = Spline::through(true_horizon_deg, |true_deg| {
             // The refraction of the apparent altitude is a little less than that of the true one.
-            newton(true_deg, true_deg, |apparent_deg| by_apparent.value_and_slope(apparent_deg.max(horizon.deg()))) - true_deg
+            newton(true_deg, true_deg, |apparent_deg| {
+                by_apparent.value_and_slope(apparent_deg.max(horizon.deg()))
+            }) - true_deg
         });
         Ok(Traced {
             horizon,
@@ -230,4 +238,62 @@ fn second_derivatives(knots: &[f64]) -> Vec<f64> {
     seconds[0] = 2.0 * seconds[1] - seconds[2];
     seconds[last] = 2.0 * seconds[last - 1] - seconds[last - 2];
     seconds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spline_is_the_bending_of_the_rays_between_those_that_were_followed() {
+        let air = ObserverAir {
+            height_m: 0.0,
+            pressure_mbar: 1013.25,
+            temperature_c: 15.0,
+            relative_humidity: 0.5,
+            wavelength_nm: 550.0,
+        };
+        for (height_m, pressure_mbar, temperature_c, within_arcsec) in [
+            (0.0, 1013.25, 15.0, 0.0002),
+            (0.0, 1080.0, -50.0, 0.0002),
+            (2635.0, 743.0, 12.0, 0.0002),
+            (4205.0, 615.0, 2.0, 0.0002),
+            (10_000.0, 265.0, -50.0, 0.0003),
+            // The tropopause below the observer bends rays in another way than the air above it.
+            (30_000.0, 12.0, -46.0, 0.3),
+        ] {
+            let air = ObserverAir { height_m, pressure_mbar, temperature_c, ..air };
+            let (traced, profile) = (Traced::through(&air).unwrap(), Profile::over(&air));
+            let horizon_deg = traced.horizon().deg();
+            let mut largest = 0.0f64;
+            for step in 0..2000 {
+                let deg = horizon_deg + (90.0 - horizon_deg) * (f64::from(step) / 2000.0).powi(3);
+                let altitude = Angle::from_deg(deg);
+                let ray = Ray::new(&profile, height_m / 1000.0, altitude).bending();
+                let off = (traced.at_apparent_altitude(altitude) - ray).abs().arcsec();
+                assert!(off < within_arcsec, "{height_m} m, {deg}°: {off}\"");
+                largest = largest.max(off);
+            }
+            println!("{height_m} m, {temperature_c} °C: {largest:.6}\"");
+            // The rays themselves would leave nothing.
+            assert!(largest > 1e-6, "{height_m} m: {largest}");
+        }
+    }
+
+    #[test]
+    fn splines_keep_cubic_curves() {
+        // In the logarithm that they run in.
+        let curve = |deg: f64| {
+            let x = (deg + OFFSET_DEG).ln();
+            (
+                1.0 + x * (2.0 - x * (0.5 - 0.1 * x)),
+                (2.0 - x * (1.0 - 0.3 * x)) / (deg + OFFSET_DEG),
+            )
+        };
+        let spline = Spline::through(0.0, |deg| curve(deg).0);
+        for deg in [0.0, 0.001, 0.7, 5.0, 44.0, 89.99, 90.0] {
+            let (got, wanted) = (spline.value_and_slope(deg), curve(deg));
+            assert!((got.0 - wanted.0).abs() < 1e-12 && (got.1 - wanted.1).abs() < 1e-10, "{deg}");
+        }
+    }
 }
