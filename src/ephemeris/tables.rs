@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::analytic::Analytic;
 use super::body::Body;
+use super::moon_orientation::MoonOrientation;
 use super::orientation::{Nutation, Nutations};
 use super::resampled::{Depth, Table};
 use super::solar_system::SolarSystem;
@@ -36,6 +37,7 @@ pub struct Ephemeris {
     de440: Option<Arc<SolarSystem>>,
     de431: Option<Arc<SolarSystem>>,
     nutations: Nutations,
+    moon_orientation: MoonOrientation,
 }
 
 /// Where a body was, and how it moved on until now.
@@ -77,6 +79,7 @@ impl Ephemeris {
         Ok(Ephemeris {
             de440: read(DE440_FILE, depth, Tier::De440(depth))?,
             nutations: Nutations::load(catalogs)?,
+            moon_orientation: MoonOrientation::load(catalogs)?,
             de431: read(DE431_FILE, Depth::Tenth, Tier::De431).unwrap_or_default(),
         })
     }
@@ -184,6 +187,11 @@ impl Ephemeris {
     /// Nutation within a tolerance, at the least cost.
     pub fn nutation(&self, tolerance: Tolerance, tt: JulianDate<Tt>) -> Nutation {
         self.nutations.within(tolerance, tt)
+    }
+
+    /// How the Moon stands.
+    pub fn moon_orientation(&self) -> &MoonOrientation {
+        &self.moon_orientation
     }
 
     fn theory(&self, tier: Tier) -> Option<Theory<'_>> {

@@ -145,7 +145,7 @@ fn of_body(observation: &mut Observation, body: Body) -> Result<Figures, Ephemer
     values[TOPOCENTRIC.start + 2] = place.topocentric_distance_km;
     if body == Body::Moon {
         let columns = MOON_GEOCENTRIC.start..MOON_TOPOCENTRIC.end;
-        values[columns].copy_from_slice(&moon::figures(observation.observer(), place));
+        values[columns].copy_from_slice(&moon::figures(&observation.moon_physical(place)));
     }
     Ok(Figures { values, tier: seen.tier, error_bound: seen.error_bound })
 }
