@@ -9,7 +9,7 @@ use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
 use nocturne::ephemeris::moon_orientation::MoonPhysical;
 use nocturne::ephemeris::stars::StarReduction;
 use nocturne::ephemeris::{Body, Depth, Ephemeris, EphemerisError, Observation, Tier};
-use nocturne::frame::{Dir, Horizon, Icrs, TrueOfDate};
+use nocturne::frame::{Dir, Horizon, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
 use nocturne::time::{Instant, JulianDate, Tt, Ut1};
