@@ -4,6 +4,7 @@
 //! 1 when it does but could not be done. Every error is one sentence on standard error. Results
 //! go to standard output, progress to standard error.
 
+mod almanac;
 mod draw;
 mod error;
 mod look;
@@ -48,6 +49,8 @@ enum Command {
     Place(place::PlaceArgs),
     /// List the Sun, the Moon, planets and stars: where they stand and how bright they are
     Objects(objects::ObjectsArgs),
+    /// List what happens in the sky: rise and set, twilight, phases, meetings, dark nights
+    Almanac(almanac::AlmanacArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -134,6 +137,7 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Render(args) => render::run(args, &catalogs, out),
         Command::Place(args) => place::run(args, &catalogs, out),
         Command::Objects(args) => objects::run(args, &catalogs, out),
+        Command::Almanac(args) => almanac::run(args, &catalogs, out),
         #[cfg(feature = "gpu")]
         Command::Adapter => Ok(()),
     }

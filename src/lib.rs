@@ -46,6 +46,9 @@ pub mod time;
 pub mod ephemeris;
 pub mod sky;
 
+// What happens there, and when.
+pub mod almanac;
+
 // What lies between, how bright things shine, and what an eye makes of it.
 pub mod air;
 pub mod eye;

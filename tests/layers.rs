@@ -13,7 +13,7 @@ const RANKS: [&[&str]; 11] = [
     &["units", "frame", "image"],
     &["time", "place", "catalog", "camera"],
     &["ephemeris"],
-    &["sky", "light::spectrum"],
+    &["sky", "almanac", "light::spectrum"],
     &["air", "eye"],
     &["light"],
     &["scene"],
