@@ -43,11 +43,13 @@ mod certainty;
 mod chebyshev;
 mod crossing;
 mod dark;
+pub mod eclipse;
 mod event;
 mod events;
 mod geocentric;
 pub mod limits;
 mod local;
+mod shadows;
 mod span;
 mod theory;
 
@@ -60,19 +62,20 @@ use crate::units::Angle;
 
 pub use certainty::delta_t_error_s;
 pub use event::{
-    Apsis, Class, Coordinate, Edge, Event, Meridian, Quarter, Season, Side, Target, Twilight,
-    UnknownClass, What,
+    Apsis, Class, Contact, Coordinate, Edge, Event, Meridian, Quarter, Season, Side, Target,
+    Twilight, UnknownClass, View, What,
 };
 pub use events::Events;
 pub use limits::Limits;
 
+use eclipse::EclipseError;
 use geocentric::GeocentricSearch;
 use local::{LocalFound, LocalSearch};
 use span::Stretch;
 use theory::Theory;
 
 /// What the words mean: a sentence, and the events that it is about; none where it is about all.
-const DEFINITIONS: [(&[Class], &str); 9] = [
+const DEFINITIONS: [(&[Class], &str); 10] = [
     (
         &[Class::Rise, Class::Set],
         "rise and set: airless topocentric altitude of the centre is -50' for the Sun, -(34' + \
@@ -107,7 +110,19 @@ const DEFINITIONS: [(&[Class], &str); 9] = [
         "nearest: least apparent geocentric separation; greatest elongation: greatest one from the Sun",
     ),
     (
-        &[Class::Rise, Class::Set, Class::Transit, Class::LowerTransit, Class::Twilight],
+        &[Class::Eclipse],
+        "eclipses: greatest where the axis of the shadow is nearest to the centre of the Moon or of the \
+         Earth; magnitudes are parts of the diameter; radii and shadows of the canons of Espenak & Meeus",
+    ),
+    (
+        &[
+            Class::Rise,
+            Class::Set,
+            Class::Transit,
+            Class::LowerTransit,
+            Class::Twilight,
+            Class::Eclipse,
+        ],
         "azimuths, from north through east, and altitudes are airless and topocentric, on WGS84, \
          without polar motion",
     ),
@@ -140,6 +155,15 @@ pub enum AlmanacError {
     Skyline { deg: f64 },
     #[error("the Sun at {deg}° is outside -90° to 0°; give the depth at which it is dark")]
     DarkLimit { deg: f64 },
+}
+
+impl From<EclipseError> for AlmanacError {
+    fn from(error: EclipseError) -> AlmanacError {
+        match error {
+            EclipseError::Time(error) => error.into(),
+            EclipseError::Ephemeris(error) => error.into(),
+        }
+    }
 }
 
 /// What an almanac is asked for.
@@ -180,6 +204,7 @@ impl Default for Request {
 #[derive(Debug, Clone)]
 pub struct Almanac {
     classes: Vec<Class>,
+    place: Option<Place>,
     limits: Limits,
     theory: Theory,
     local: Option<LocalSearch>,
@@ -214,6 +239,7 @@ impl Almanac {
             theory: Theory::new(ephemeris, tolerance)?,
             local: place.map(|place| LocalSearch::new(place, limits, &classes, &targets)),
             geocentric: GeocentricSearch::new(&classes, &bodies, &met_stars, nearer_than),
+            place: place.cloned(),
             classes,
             limits,
         })
@@ -229,13 +255,15 @@ impl Almanac {
             .map(|(_, sentence)| (*sentence).to_owned())
             .collect();
         if is_about(&[Class::Rise, Class::Set, Class::Dark]) {
-            sentences.push(match self.limits.skyline {
-                Angle::ZERO => "horizon: that of the sea, at the height of the eye".to_owned(),
-                skyline => format!(
+            let skyline = self.limits.skyline;
+            sentences.push(if skyline == Angle::ZERO {
+                "horizon: that of the sea, at the height of the eye".to_owned()
+            } else {
+                format!(
                     "horizon: at an apparent altitude of {:.3} degrees all around, which takes the \
                      place of 0; refraction there by Bennett 1982, scaled to 34' at 0",
                     skyline.deg()
-                ),
+                )
             });
         }
         if self.has(Class::Dark) {
@@ -284,6 +312,9 @@ impl Almanac {
             None => LocalFound::default(),
         };
         found.events.extend(self.geocentric.run(&self.theory, stretch)?);
+        if self.has(Class::Eclipse) {
+            found.events.extend(shadows::run(&self.theory, self.place.as_ref(), stretch)?);
+        }
         Ok(found)
     }
 }

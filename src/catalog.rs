@@ -5,7 +5,7 @@
 //! from; [`pack`] makes the files out of the raw tables.
 
 use std::env;
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +17,7 @@ use crate::units::Magnitude;
 mod bsc5;
 mod colour;
 mod csv;
+pub mod layered;
 pub mod moon;
 pub mod pack;
 pub mod places;
@@ -135,6 +136,16 @@ impl Catalogs {
     /// The reflectance of the Moon.
     pub fn moon_map(&self) -> Result<MoonMap, CatalogError> {
         self.read(MOON_FILE, |bytes| moon::decode(&bytes))
+    }
+
+    /// The payloads of the first `depth` layers of a layered file; the rest of it is not read.
+    pub fn layers(&self, file: &str, depth: usize) -> Result<Vec<Vec<u8>>, CatalogError> {
+        let path = self.directory.join(file);
+        match File::open(&path) {
+            Ok(file) => layered::open_layers(file, depth)
+                .map_err(|what| CatalogError::Damaged { path, what }),
+            Err(source) => Err(CatalogError::Unreadable { path, source }),
+        }
     }
 
     fn read<T>(

@@ -43,6 +43,7 @@ mod paper;
 mod planets;
 mod polynomial;
 mod position;
+pub mod resampled;
 pub mod stars;
 mod tables;
 mod tier;

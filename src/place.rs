@@ -10,7 +10,7 @@ use crate::frame::{Horizon, Itrs, Pos, Rot, turn_axes_x, turn_axes_z};
 use crate::units::{Angle, EARTH_EQUATORIAL_RADIUS_KM};
 
 /// Flattening of the WGS84 ellipsoid (NIMA TR8350.2, table 3.1).
-const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
+pub const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// Heights at which the air tables and the refraction formula hold.
 pub const HEIGHT_RANGE_M: std::ops::RangeInclusive<f64> = -430.0..=100_000.0;

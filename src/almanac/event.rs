@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::eclipse::{Cover, LunarKind, SolarKind};
 use crate::catalog::Star;
 use crate::ephemeris::Body;
 use crate::time::Instant;
@@ -173,6 +174,7 @@ pub enum Class {
     Opposition,
     Elongation,
     Appulse,
+    Eclipse,
     Dark,
 }
 
@@ -182,7 +184,7 @@ pub enum Class {
 pub struct UnknownClass(pub String);
 
 impl Class {
-    pub const ALL: [Class; 14] = [
+    pub const ALL: [Class; 15] = [
         Class::Rise,
         Class::Set,
         Class::Transit,
@@ -196,6 +198,7 @@ impl Class {
         Class::Opposition,
         Class::Elongation,
         Class::Appulse,
+        Class::Eclipse,
         Class::Dark,
     ];
 
@@ -215,6 +218,7 @@ impl Class {
             Class::Opposition => "oppositions",
             Class::Elongation => "elongations",
             Class::Appulse => "appulses",
+            Class::Eclipse => "eclipses",
             Class::Dark => "dark",
         }
     }
@@ -302,6 +306,10 @@ impl What {
             What::Opposition { .. } => Class::Opposition,
             What::GreatestElongation { .. } => Class::Elongation,
             What::Appulse { .. } => Class::Appulse,
+            What::LunarEclipse { .. }
+            | What::SolarEclipse { .. }
+            | What::SolarEclipseHere { .. }
+            | What::EclipseContact { .. } => Class::Eclipse,
             What::Dark { .. } => Class::Dark,
         }
     }
@@ -344,6 +352,23 @@ impl What {
             What::GreatestElongation { is_east: true, .. } => "greatest-elongation-east",
             What::GreatestElongation { is_east: false, .. } => "greatest-elongation-west",
             What::Appulse { .. } => "appulse",
+            What::LunarEclipse { kind, .. } => match kind {
+                LunarKind::Penumbral => "penumbral-lunar-eclipse",
+                LunarKind::Partial => "partial-lunar-eclipse",
+                LunarKind::Total => "total-lunar-eclipse",
+            },
+            What::SolarEclipse { kind, .. } => match kind {
+                SolarKind::Partial => "partial-solar-eclipse",
+                SolarKind::Annular => "annular-solar-eclipse",
+                SolarKind::Total => "total-solar-eclipse",
+                SolarKind::Hybrid => "hybrid-solar-eclipse",
+            },
+            What::SolarEclipseHere { kind, .. } => match kind {
+                Cover::Partial => "partial-solar-eclipse-here",
+                Cover::Annular => "annular-solar-eclipse-here",
+                Cover::Total => "total-solar-eclipse-here",
+            },
+            What::EclipseContact { contact, .. } => contact.code(),
             What::Dark { .. } => "dark",
         }
     }
@@ -355,7 +380,11 @@ impl What {
                 vec![target.clone()]
             }
             What::Twilight { .. } | What::Season(_) => vec![Target::Body(Body::Sun)],
-            What::MoonPhase(_) => vec![Target::Body(Body::Moon)],
+            What::MoonPhase(_) | What::LunarEclipse { .. } => vec![Target::Body(Body::Moon)],
+            What::SolarEclipse { .. } | What::SolarEclipseHere { .. } => {
+                vec![Target::Body(Body::Sun)]
+            }
+            What::EclipseContact { contact, .. } => vec![Target::Body(contact.eclipsed())],
             What::Apsis { apsis: Apsis::Perihelion | Apsis::Aphelion, .. } => {
                 vec![Target::Body(Body::Sun)]
             }
@@ -378,14 +407,14 @@ impl What {
             | What::Set { azimuth, .. }
             | What::Transit { azimuth, .. }
             | What::Twilight { azimuth, .. } => Some(*azimuth),
-            _ => None,
+            _ => self.view().map(|view| view.azimuth),
         }
     }
 
     pub fn altitude(&self) -> Option<Angle> {
         match self {
             What::Transit { altitude, .. } => Some(*altitude),
-            _ => None,
+            _ => self.view().map(|view| view.altitude),
         }
     }
 
@@ -410,11 +439,85 @@ impl What {
         }
     }
 
+    /// Of an eclipse: part of the diameter that is covered, or within the shadow (the umbra, if the
+    /// Moon reaches it).
+    pub fn magnitude(&self) -> Option<f64> {
+        match self {
+            What::LunarEclipse { kind: LunarKind::Penumbral, penumbral_magnitude, .. } => {
+                Some(*penumbral_magnitude)
+            }
+            What::LunarEclipse { umbral_magnitude, .. } => Some(*umbral_magnitude),
+            What::SolarEclipse { magnitude, .. } | What::SolarEclipseHere { magnitude, .. } => {
+                Some(*magnitude)
+            }
+            _ => None,
+        }
+    }
+
+    /// Part of the disc of the Sun that is covered.
+    pub fn obscuration(&self) -> Option<f64> {
+        match self {
+            What::SolarEclipse { obscuration, .. } | What::SolarEclipseHere { obscuration, .. } => {
+                Some(*obscuration)
+            }
+            _ => None,
+        }
+    }
+
+    /// Where what is eclipsed stands.
+    fn view(&self) -> Option<View> {
+        match self {
+            What::LunarEclipse { view, .. } | What::EclipseContact { view, .. } => *view,
+            What::SolarEclipseHere { view, .. } => Some(*view),
+            _ => None,
+        }
+    }
+
     /// When it is over, if it lasts.
     pub fn end(&self) -> Option<&Instant> {
         match self {
             What::Dark { end } => Some(end),
             _ => None,
+        }
+    }
+}
+
+impl Contact {
+    /// Its name in canons, after whom it is about.
+    pub const fn code(self) -> &'static str {
+        match self {
+            Contact::P1 => "lunar-eclipse-p1",
+            Contact::U1 => "lunar-eclipse-u1",
+            Contact::U2 => "lunar-eclipse-u2",
+            Contact::U3 => "lunar-eclipse-u3",
+            Contact::U4 => "lunar-eclipse-u4",
+            Contact::P4 => "lunar-eclipse-p4",
+            Contact::C1 => "solar-eclipse-c1",
+            Contact::C2 => "solar-eclipse-c2",
+            Contact::C3 => "solar-eclipse-c3",
+            Contact::C4 => "solar-eclipse-c4",
+        }
+    }
+
+    pub const fn eclipsed(self) -> Body {
+        match self {
+            Contact::C1 | Contact::C2 | Contact::C3 | Contact::C4 => Body::Sun,
+            _ => Body::Moon,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Contact::P1 => "Moon touches the penumbra (P1)",
+            Contact::U1 => "Moon touches the umbra (U1)",
+            Contact::U2 => "Moon is wholly in the umbra (U2)",
+            Contact::U3 => "Moon begins to leave the umbra (U3)",
+            Contact::U4 => "Moon has left the umbra (U4)",
+            Contact::P4 => "Moon has left the penumbra (P4)",
+            Contact::C1 => "Moon touches the Sun (C1)",
+            Contact::C2 => "Moon is wholly before the Sun (C2)",
+            Contact::C3 => "Moon begins to leave the Sun (C3)",
+            Contact::C4 => "Moon has left the Sun (C4)",
         }
     }
 }
@@ -478,6 +581,17 @@ impl fmt::Display for What {
             What::Appulse { of: [first, second], separation } => {
                 write!(f, "{first} nearest to {second}, {} away", Short(*separation))
             }
+            What::LunarEclipse { kind, .. } => write!(f, "Greatest eclipse of the Moon, {kind}"),
+            What::SolarEclipse { kind, .. } => write!(f, "Greatest eclipse of the Sun, {kind}"),
+            What::SolarEclipseHere { kind, .. } => {
+                let kind = match kind {
+                    Cover::Partial => "partial",
+                    Cover::Annular => "annular",
+                    Cover::Total => "total",
+                };
+                write!(f, "Eclipse of the Sun here, {kind}")
+            }
+            What::EclipseContact { contact, .. } => f.write_str(contact.words()),
             What::Dark { .. } => f.write_str("Dark, Sun and Moon down"),
         }
     }

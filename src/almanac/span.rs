@@ -52,6 +52,10 @@ impl Stretch {
         self.end.tt - self.start.tt
     }
 
+    pub fn contains(&self, instant: &Instant) -> bool {
+        instant.tt >= self.start.tt && instant.tt < self.end.tt
+    }
+
     fn at(&self, days: f64) -> Result<Instant, AlmanacError> {
         // Neighbouring stretches share their border to the last digit.
         if days == 0.0 {

@@ -46,24 +46,35 @@ pub(super) fn open(kind: Kind, bytes: &[u8]) -> Result<([u32; 3], &[u8]), String
     let Some((header, payload)) = bytes.split_at_checked(HEADER_LEN) else {
         return Err(format!("has {} bytes, too few for its header of {HEADER_LEN}", bytes.len()));
     };
+    check_kind(kind, header)?;
+    if header[DIGEST_AT..] != digest(&header[..DIGEST_AT], payload) {
+        return Err("does not match the SHA-256 in its header".into());
+    }
+    Ok(([u32_at(header, 12), u32_at(header, 16), u32_at(header, 20)], payload))
+}
+
+/// Refuses a header that belongs to another kind or version of file.
+pub(super) fn check_kind(kind: Kind, header: &[u8]) -> Result<(), String> {
     if header[..8] != kind.magic[..] {
         let wanted = String::from_utf8_lossy(kind.magic);
         return Err(format!("does not begin with the mark {wanted:?}: it is another kind of file"));
     }
-    let u32_at = |at: usize| {
-        u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]])
-    };
-    if u32_at(8) != kind.version {
-        return Err(format!(
-            "is in format version {}, and this program reads version {}",
-            u32_at(8),
+    match u32_at(header, 8) {
+        version if version == kind.version => Ok(()),
+        version => Err(format!(
+            "is in format version {version}, and this program reads version {}",
             kind.version
-        ));
+        )),
     }
-    if header[DIGEST_AT..] != digest(&header[..DIGEST_AT], payload) {
-        return Err("does not match the SHA-256 in its header".into());
-    }
-    Ok(([u32_at(12), u32_at(16), u32_at(20)], payload))
+}
+
+/// The first four bytes of the SHA-256 in the header of a sealed file: whom its parts belong to.
+pub(super) fn mark(sealed: &[u8]) -> u32 {
+    u32_at(sealed, DIGEST_AT)
+}
+
+pub(super) fn u32_at(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }
 
 fn digest(before: &[u8], after: &[u8]) -> [u8; 32] {

@@ -42,7 +42,7 @@ pub struct AlmanacArgs {
     to: Option<String>,
     /// Kinds of events, with commas between: rise, set, transit, lower-transit, twilight, phases,
     /// seasons, apsides, conjunctions, longitude-conjunctions, oppositions, elongations, appulses,
-    /// dark; or all. Without it, all but lower transits and conjunctions in longitude
+    /// eclipses, dark; or all. Without it, all but lower transits and conjunctions in longitude
     #[arg(long, value_name = "LIST")]
     events: Option<String>,
     /// Sun, Moon, planets and stars by name, with commas between, that rise, set, pass the meridian

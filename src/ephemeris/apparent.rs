@@ -90,15 +90,13 @@ impl ApparentPlace {
         observer: &Observer,
         earth: &EarthState,
     ) -> Result<ApparentPlace, EphemerisError> {
-        let tdb = observer.tdb;
-        let now = ephemeris.geometric(body, tdb, tier)?;
-        let (retarded, light_time_s) = light_left(ephemeris, body, tier, tdb, now, earth.position);
-        let from_earth = retarded - earth.position;
+        let now = ephemeris.geometric(body, observer.tdb, tier)?;
+        let path = LightPath::to(earth.position, body, tier, ephemeris, observer.tdb, now);
+        let from_earth = path.left_at(path.light_time_s) - earth.position;
         // The observer is up to 21 ms of light closer or farther: the body moves on for that time.
-        let displacement_per_s = (now - retarded) * light_time_s.recip();
         let topocentric_light_time_s =
             (from_earth - observer.position).distance_km() / LIGHT_SPEED_KM_S;
-        let moved = retarded + displacement_per_s * (light_time_s - topocentric_light_time_s);
+        let moved = path.left_at(topocentric_light_time_s);
         let from_observer = moved - earth.position - observer.position;
 
         // The Sun drifts at 16 m/s: while light crosses the orbit of the Earth it is taken to stand.
@@ -127,28 +125,43 @@ impl ApparentPlace {
     }
 }
 
-/// Where the body was when the light left that arrives now, and the time it took.
-fn light_left(
-    ephemeris: &Ephemeris,
-    body: Body,
-    tier: Tier,
-    tdb: JulianDate<Tdb>,
-    now: Pos<Icrs>,
-    earth: Pos<Icrs>,
-) -> (Pos<Icrs>, f64) {
-    let light_time = |position: Pos<Icrs>| (position - earth).distance_km() / LIGHT_SPEED_KM_S;
-    let (mut retarded, mut light_time_s) = (now, light_time(now));
-    // Each round gains a factor of 10^4, the ratio of light to planets.
-    for _ in 0..3 {
-        retarded = ephemeris.unchecked(body, tdb.plus_days(-light_time_s / DAY_S), tier);
-        let corrected_s = light_time(retarded);
-        let change_s = corrected_s - light_time_s;
-        light_time_s = corrected_s;
-        if change_s.abs() < 1e-5 {
-            break;
+/// The last of the way that a body went before the light left it that arrives now.
+struct LightPath {
+    /// Where the body was `estimate_s` ago.
+    retarded: Pos<Icrs>,
+    velocity_km_s: Pos<Icrs>,
+    estimate_s: f64,
+    /// How long the light took to the centre of the Earth.
+    light_time_s: f64,
+}
+
+impl LightPath {
+    /// `now` is the body at the time of arrival.
+    fn to(
+        earth: Pos<Icrs>,
+        body: Body,
+        tier: Tier,
+        ephemeris: &Ephemeris,
+        tdb: JulianDate<Tdb>,
+        now: Pos<Icrs>,
+    ) -> LightPath {
+        let light_time_s = |from: Pos<Icrs>| (from - earth).distance_km() / LIGHT_SPEED_KM_S;
+        let estimate_s = light_time_s(now);
+        let retarded = ephemeris.unchecked(body, tdb.plus_days(-estimate_s / DAY_S), tier);
+        let velocity_km_s = (now - retarded) * estimate_s.recip();
+        let mut path = LightPath { retarded, velocity_km_s, estimate_s, light_time_s: estimate_s };
+        // Each round gains a factor of 10^4, the ratio of light to planets. The estimate is wrong by
+        // a second at most, in which no body strays a metre from a straight line.
+        for _ in 0..2 {
+            path.light_time_s = light_time_s(path.left_at(path.light_time_s));
         }
+        path
     }
-    (retarded, light_time_s)
+
+    /// Where the body was so many seconds before the light arrives, near the estimate.
+    fn left_at(&self, seconds_before: f64) -> Pos<Icrs> {
+        self.retarded + self.velocity_km_s * (self.estimate_s - seconds_before)
+    }
 }
 
 /// Bends a ray around the Sun.

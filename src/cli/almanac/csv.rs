@@ -11,13 +11,14 @@ use super::sheet::{Heading, Sheet, coordinates};
 pub struct Csv;
 
 const COLUMNS: &str = "event,first,second,utc,local,jd_tt,jd_ut1,azimuth_deg,altitude_deg,\
-                       separation_deg,distance_km,end_utc,duration_h";
+                       separation_deg,distance_km,magnitude,obscuration,end_utc,duration_h";
 
 impl Sheet for Csv {
     fn begin(&mut self, heading: &Heading, out: &mut dyn Write) -> io::Result<()> {
         if let Some(place) = &heading.place {
             let name = heading.place_name().unwrap_or_default();
-            writeln!(out, "# {name}: {}, {} m", coordinates(place), place.height_m)?;
+            let point = coordinates(place.latitude, place.longitude);
+            writeln!(out, "# {name}: {point}, {} m", place.height_m)?;
         }
         let lines = heading.notes();
         for line in lines {
@@ -47,6 +48,8 @@ impl Sheet for Csv {
             number(what.altitude().map(|angle| angle.deg()), 6),
             number(what.separation().map(|angle| angle.deg()), 6),
             number(what.distance_km(), 3),
+            number(what.magnitude(), 6),
+            number(what.obscuration(), 6),
             what.end().map_or_else(String::new, |end| end.to_string()),
             number(what.end().map(|end| (end.tt - instant.tt) * DAY_S / 3600.0), 6),
         ];

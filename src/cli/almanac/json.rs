@@ -53,6 +53,10 @@ struct EventRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     distance_km: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    magnitude: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    obscuration: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     end_utc: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     duration_h: Option<f64>,
@@ -94,6 +98,8 @@ impl Sheet for Json {
             altitude_deg: deg(what.altitude()),
             separation_deg: deg(what.separation()),
             distance_km: what.distance_km(),
+            magnitude: what.magnitude(),
+            obscuration: what.obscuration(),
             end_utc: what.end().map(|end| end.to_string()),
             duration_h: what.end().map(|end| (end.tt - instant.tt) * DAY_S / 3600.0),
         })?;

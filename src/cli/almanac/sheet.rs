@@ -68,7 +68,7 @@ impl Heading {
     /// The name of the place, or its coordinates.
     pub fn place_name(&self) -> Option<String> {
         let place = self.place.as_ref()?;
-        Some(place.name.clone().unwrap_or_else(|| coordinates(place)))
+        Some(place.name.clone().unwrap_or_else(|| coordinates(place.latitude, place.longitude)))
     }
 
     /// What clocks at the place show, if they are known.
@@ -79,12 +79,12 @@ impl Heading {
 }
 
 /// `35.1983° N, 111.6513° W`.
-pub fn coordinates(place: &Place) -> String {
+pub fn coordinates(latitude: Angle, longitude: Angle) -> String {
     let part = |angle: Angle, positive: char, negative: char| {
         let wind = if angle < Angle::ZERO { negative } else { positive };
         format!("{:.4}° {wind}", angle.abs().deg())
     };
-    format!("{}, {}", part(place.latitude, 'N', 'S'), part(place.longitude, 'E', 'W'))
+    format!("{}, {}", part(latitude, 'N', 'S'), part(longitude, 'E', 'W'))
 }
 
 /// The same instant where the seconds of UTC are whole.

@@ -17,7 +17,8 @@ impl Sheet for Table {
         if let Some(place) = &heading.place {
             let name = heading.place_name().unwrap_or_default();
             let height_m = place.height_m;
-            write!(out, "{name}: {}, {height_m:.0} m", coordinates(place))?;
+            let point = coordinates(place.latitude, place.longitude);
+            write!(out, "{name}: {point}, {height_m:.0} m")?;
             match place.time_zone {
                 Some(zone) => writeln!(out, "; times of {} and UTC", zone.name())?,
                 None => writeln!(out, "; times in UTC")?,
@@ -60,9 +61,33 @@ pub fn details(heading: &Heading, event: &Event) -> String {
             format!("{:.7} au", distance_km / AU_KM)
         }
         What::Apsis { distance_km, .. } => format!("{distance_km:.0} km"),
+        What::LunarEclipse { umbral_magnitude, penumbral_magnitude, .. } => format!(
+            "magnitude {umbral_magnitude:.4}, penumbral {penumbral_magnitude:.4}{}",
+            stands(&event.what)
+        ),
+        What::SolarEclipse { magnitude, latitude, longitude, .. } => {
+            let point = coordinates(*latitude, *longitude);
+            format!("magnitude {magnitude:.4} at {point}")
+        }
+        What::SolarEclipseHere { magnitude, obscuration, .. } => {
+            let percent = 100.0 * obscuration;
+            format!("magnitude {magnitude:.4}, {percent:.1} % covered{}", stands(&event.what))
+        }
+        What::EclipseContact { .. } => stands(&event.what).trim_start_matches(", ").to_owned(),
         what => what.azimuth().map_or_else(String::new, |azimuth| {
             format!("azimuth {:.2}° {}", azimuth.deg(), wind(azimuth))
         }),
+    }
+}
+
+/// Where something eclipsed stands, if there is a place.
+fn stands(what: &What) -> String {
+    let (Some(azimuth), Some(altitude)) = (what.azimuth(), what.altitude()) else {
+        return String::new();
+    };
+    match altitude.deg() {
+        deg if deg < -1.0 => ", below the horizon".to_owned(),
+        deg => format!(", altitude {deg:.1}° {}", wind(azimuth)),
     }
 }
 
