@@ -130,8 +130,8 @@ impl Contact {
             Contact::U4 => "Moon has left the umbra (U4)",
             Contact::P4 => "Moon has left the penumbra (P4)",
             Contact::C1 => "Moon touches the Sun (C1)",
-            Contact::C2 => "Moon is wholly before the Sun (C2)",
-            Contact::C3 => "Moon begins to leave the Sun (C3)",
+            Contact::C2 => "Total or annular phase begins (C2)",
+            Contact::C3 => "Total or annular phase ends (C3)",
             Contact::C4 => "Moon has left the Sun (C4)",
         }
     }

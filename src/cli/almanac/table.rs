@@ -40,7 +40,7 @@ impl Sheet for Table {
         let details = details(heading, event);
         match details.is_empty() {
             true => writeln!(out, "{}", event.what),
-            false => writeln!(out, "{:<32} {details}", event.what.to_string()),
+            false => writeln!(out, "{:<38} {details}", event.what.to_string()),
         }
     }
 
