@@ -9,7 +9,7 @@ use std::time::Instant as Clock;
 use glam::DVec3;
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::moon_orientation::{MoonOrientation, MoonPhysical};
-use nocturne::ephemeris::orientation::Orientation;
+use nocturne::ephemeris::orientation::{Nutation, Orientation};
 use nocturne::frame::Pos;
 use nocturne::time::{Instant, JulianDate, Tdb};
 
@@ -43,7 +43,7 @@ fn main() {
 
     let now = JulianDate::from_jd(2_460_000.5);
     let instant = Instant::from_tt_ut1(now, now.read_on(-69.0)).expect("a date within range");
-    let true_from_icrs = Orientation::at(&instant).true_from_icrs();
+    let true_from_icrs = Orientation::at(&instant, &Nutation::iau2000a(instant.tt)).true_from_icrs;
     let moon_fixed_from_icrs = table.moon_fixed_from_icrs(instant.tdb);
     let moon = DVec3::new(-166_076.0, -325_870.0, -107_116.0);
     let physical = |places: &Vec<DVec3>| {

@@ -5,7 +5,7 @@ use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::moon_orientation::{
     FADE_DAYS, LibrationSource, MoonOrientation, MoonPhysical,
 };
-use nocturne::ephemeris::orientation::Orientation;
+use nocturne::ephemeris::orientation::{Nutation, Orientation};
 use nocturne::frame::{Icrs, MoonFixed, Pos, Rot, turn_axes_x, turn_axes_y, turn_axes_z};
 use nocturne::time::{Instant, JulianDate, Tdb, Tt};
 use nocturne::units::{Angle, DAY_S};
@@ -95,7 +95,7 @@ fn librations_axis_and_phase_are_those_of_the_table() {
         let instant = Instant::from_tt_ut1(tt, tt.read_on(-60.0)).expect("a date within range");
         let physical = MoonPhysical::of(
             orientation.moon_fixed_from_icrs(tdb.plus_days(-number("light_s") / DAY_S)),
-            Orientation::at(&instant).true_from_icrs(),
+            Orientation::at(&instant, &Nutation::iau2000a(tt)).true_from_icrs,
             position("earth"),
             position("observer"),
             position("sun"),

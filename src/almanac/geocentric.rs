@@ -94,11 +94,12 @@ impl GeocentricSearch {
         targets.extend(bodies.iter().filter(is_planet).map(|body| Target::Body(*body)));
         let first_star = targets.len();
         targets.extend(stars.iter().cloned());
-        for planet in first_planet..first_star {
+        let planets = targets.iter().enumerate().take(first_star).skip(first_planet);
+        for (planet, target) in planets {
             if has(Class::Conjunction) || has(Class::Opposition) {
                 functions.push(Function::Line(planet, SUN, Coordinate::EclipticLongitude));
             }
-            if has(Class::Elongation) && is_inner(&targets[planet]) {
+            if has(Class::Elongation) && is_inner(target) {
                 functions.push(Function::Elongation(planet));
             }
         }
@@ -127,7 +128,7 @@ impl GeocentricSearch {
     pub fn run(&self, theory: &Theory, stretch: &Stretch) -> Result<Vec<Event>, AlmanacError> {
         let sought: Vec<Sought> = self.functions.iter().map(Function::sought).collect();
         let sample = |instant: &Instant| {
-            let seen = theory.from_earth(instant, &self.targets)?;
+            let seen = theory.seen_from_earth(instant, &self.targets)?;
             let value = |function: &Function| self.value(theory, *function, instant, &seen);
             self.functions.iter().map(value).collect()
         };
@@ -172,7 +173,7 @@ impl GeocentricSearch {
     fn event(&self, theory: &Theory, found: &Found) -> Result<Option<Event>, AlmanacError> {
         let function = self.functions[found.function];
         let mut instant = found.instant;
-        let seen = theory.from_earth(&instant, &self.targets)?;
+        let seen = theory.seen_from_earth(&instant, &self.targets)?;
         if function.sought() == Sought::Zero {
             let value = self.value(theory, function, &instant, &seen)?;
             let correction_s = -value / found.slope_per_day * DAY_S;

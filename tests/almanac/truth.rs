@@ -102,8 +102,8 @@ pub fn overtaking_arcsec_s(
         let [first, second] = bodies.map(|body| {
             let dir = observation.seen(body).expect("in range").place.geocentric;
             if is_ecliptic {
-                let ecliptic: Dir<_> =
-                    axes.ecliptic_from_mean * (axes.true_from_mean.inverse() * dir);
+                let ecliptic: Dir<_> = axes.ecliptic_from_mean
+                    * (axes.mean_from_icrs * axes.true_from_icrs.inverse() * dir);
                 ecliptic.longitude()
             } else {
                 dir.longitude()
