@@ -14,6 +14,16 @@
 //!
 //! | | -4000 | -3000 | -2000 | -1000 | 0 | 1000 | 1550 | 1800 | 2050 | 2650 | 3000 |
 //! |---|---|---|---|---|---|---|---|---|---|---|---|
+//! | Sun, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Moon, DE431 | - | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 |
+//! | Mercury, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Venus, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Mars, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Jupiter, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Saturn, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Uranus, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Neptune, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Pluto, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
 //! | Sun, paper | - | - | - | 1150 | 520 | 150 | 55 | 65 | 125 | 230 | 680 |
 //! | Moon, paper | - | - | - | 10800 | 5100 | 1450 | 600 | 600 | 830 | 1600 | 5400 |
 //! | Sun, series | 65 | 40 | 35 | 22 | 22 | 15 | 14 | 14 | 16 | 16 | 18 |
@@ -27,10 +37,15 @@
 //! | Neptune, series | 260 | 140 | 150 | 90 | 60 | 50 | 20 | 16 | 22 | 40 | 50 |
 //! | Pluto, series | 14000 | 1000 | 400 | 1150 | 1050 | 1000 | 550 | 320 | 370 | 650 | 9000 |
 //!
+//! The tables of DE440, 1550 to 2650, keep 0.1, 0.01 and 0.001 arcseconds for every body, as deep as
+//! they are read; distances at the deepest: Moon 1 m, Sun 0.3 km, Mercury to Mars 1 km, the others 20
+//! km. The table of DE431 ends at -3000 and +3000. What a place costs by each tier,
+//! `cargo bench --bench ephemeris` prints; where a table serves, it is also the cheapest.
+//!
 //! The paper tier ends at -1000, where its Moon is three degrees off; everything else is served from
 //! -4000 to +4000. Pluto's elements were made for -3000 to +3000, and it shows.
 //!
-//! Distances, relative, in 1550-2650: Moon 0.00003 (series) and 0.0016 (paper), Sun 0.00001 and
+//! Distances of the others, relative, in 1550-2650: Moon 0.00003 (series) and 0.0016 (paper), Sun 0.00001 and
 //! 0.0001, planets 0.0002, Pluto 0.0006 (the largest of 2000 places against DE440).
 
 mod analytic;

@@ -200,7 +200,8 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
             Instant { utc: tt.read_on(0.0), ut1: tt.read_on(0.0), tt, tdb: tt.read_on(0.0) };
         let observer = Observer::at(&EPHEMERIS, &instant, &place, Angle::ZERO);
         let truth: Dir<TrueOfDate> = row.dir("ra_deg", "dec_deg");
-        for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
+        // The Swiss Ephemeris, which the table comes from, errs by some milliarcseconds itself.
+        for tier in [Tier::De431, Tier::Paper, Tier::Series] {
             let Some(bound) = tier.bound(body, instant.tdb) else { continue };
             let seen = ApparentPlace::of(
                 &EPHEMERIS,

@@ -320,7 +320,7 @@ fn the_cheapest_form_that_is_good_enough_is_chosen() {
         (0.0, &series, now, NutationForm::Iau2000a),
         (1.0, &table, now, NutationForm::Interpolated),
         (0.001, &table, now, NutationForm::Interpolated),
-        (0.0, &table, now, NutationForm::Iau2000a),
+        (0.0, &table, now, NutationForm::Interpolated),
         (1.0, &table, antiquity, NutationForm::Iau2000b),
         (0.001, &table, antiquity, NutationForm::Iau2000a),
     ] {
