@@ -5,10 +5,13 @@
 //! integration fitted to all that has been measured, 1549-12-31 to 2650-01-25.
 //!
 //! *What is kept.* Sun and planets as they are seen from the Earth within 0.0006", 0.006" and 0.06"
-//! at the three depths, the Moon's distance within 0.7 m at the last; `pack --kernel` prints what it
-//! measures. So Venus and the Earth-Moon barycentre, which come as close as 0.27 au, are kept within
+//! at the three depths, the Moon's distance within 0.7 m at the last; `cargo run --bin pack` prints
+//! what it measures. So Venus and the Earth-Moon barycentre, which come as close as 0.27 au, are kept within
 //! 0.1 km, and Neptune within 10 km. What strays along the radius may be twice as coarse as what
 //! strays across it: it is seen from the Sun's side.
+//!
+//! The errors that it prints are those of folded values; beside them stands how far folding moved
+//! what is stored.
 //!
 //! *What is left out.* Asteroids, and the planets beside the barycentres of their systems.
 

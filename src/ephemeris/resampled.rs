@@ -19,8 +19,18 @@
 //! at Lobatto nodes, which keep the borders. After that an evaluation is one look-up and one Horner
 //! scheme, on any number of threads, without a lock.
 //!
-//! How we differ from JPL's files: theirs hold Chebyshev coefficients of the motion itself in 64-bit
-//! numbers, and neighbours meet within rounding only because nothing was rounded much.
+//! How we differ from JPL's files: theirs hold Chebyshev coefficients of the motion itself, each a
+//! 64-bit number, and neighbours meet because nothing was rounded. DE440's is 35 times as large as the
+//! table made of it.
+//!
+//! # Accuracy and cost
+//!
+//! What a quantum must be is the maker's choice: see [`super::de440`], whose table
+//! `cargo run --bin pack` compares with its kernel. `benches/resampled.rs` prints what values cost,
+//! and the first touch.
+//!
+//! Folded values differ from the stored ones, more or less as the maker chose the degrees of the
+//! pieces: [`Channel::unfolded_value`] gives the latter, and `pack` prints how far they are apart.
 
 mod bits;
 mod chebyshev;

@@ -84,8 +84,8 @@ impl Recipe {
         }
         for folding in self.folding {
             let Folding { pieces, degree } = folding;
-            if !pieces.is_power_of_two() || pieces > 1024 {
-                return refuse("a number of pieces that is no power of two");
+            if !pieces.is_power_of_two() || pieces > 128 {
+                return refuse("a number of pieces that is no power of two up to 128");
             }
             if degree % 2 == 0 || degree > MAX_DEGREE {
                 return refuse("pieces whose degree is even or too high");

@@ -255,7 +255,9 @@ fn a_description_that_makes_no_sense_is_refused_in_words() {
         for value in [0, 1, 0x3f, 0x7f, 0x80, 0xff] {
             let mut payloads = payloads.clone();
             payloads[0][at] = value;
-            drop(Table::open(payloads));
+            for channel in Table::open(payloads).iter().flat_map(Table::channels) {
+                channel.value_and_rate(channel.span().1, Depth::Thousandth);
+            }
         }
     }
     let wrong = |change: &dyn Fn(&mut Recipe)| {
