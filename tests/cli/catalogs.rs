@@ -9,7 +9,15 @@ use libtest_mimic::Trial;
 
 use super::harness::{DARK, IMPOSSIBLE, Machine, Nocturne, nocturne, trial, words};
 
-const FILES: [&str; 3] = ["stars.bin", "places.csv", "moon_albedo.bin"];
+const FILES: [&str; 7] = [
+    "stars.bin",
+    "places.csv",
+    "moon_albedo.bin",
+    "de440.bin",
+    "de431.bin",
+    "nutation.bin",
+    "libration.bin",
+];
 
 /// The full Moon over Flagstaff, large enough to show its face.
 const MOON: &str = "render --at 2026-08-27T23:30-07:00 --place Flagstaff --look Moon --fov 1 \
@@ -79,6 +87,9 @@ fn refused(file: &str, harm: &str, do_harm: Harm) {
     let line = || match file {
         "moon_albedo.bin" => nocturne(words("render --scene moon.toml -o old.png"))
             .with_file("moon.toml", moon_without_air()),
+        "de440.bin" | "de431.bin" | "nutation.bin" | "libration.bin" => {
+            nocturne(words("ephemeris --body Moon --from 2026-01-01 --to 2026-01-02 -o old.csv"))
+        }
         _ => nocturne(DARK).and(["--describe", "old.json"]),
     };
     let said: &[&str] = match (file, harm) {
