@@ -165,7 +165,7 @@ impl Nocturne {
     /// Runs it among files that it is told to write, and expects one sentence with these words,
     /// this exit code, and all files as they were.
     pub fn refused(self, code: i32, words: &[&str]) {
-        let old = ["old.png", "old.exr", "old.json", "old.toml"];
+        let old = ["old.png", "old.exr", "old.json", "old.toml", "old.csv"];
         let run = old.iter().fold(self, |run, name| run.with_file(name, *name)).run();
         run.assert_refused(code, words);
     }
