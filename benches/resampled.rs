@@ -1,9 +1,10 @@
 //! What a value of a resampled table costs: folded, unfolded, and on the first touch.
 //!
-//! `cargo bench --bench resampled --no-default-features`. Every channel of `de440.bin` at full depth.
+//! `cargo bench --bench resampled --no-default-features`. Every channel of the tables of motion, at
+//! full depth.
 //! Times are medians of nanoseconds; "in order" steps through ten years by half an hour, "anywhere"
-//! jumps over the whole span, where the memory is slower than the sums. The ratio is to the Sun in
-//! order in the same run, so that runs on different machines compare.
+//! jumps over the whole span, where the memory is slower than the sums. The ratio is to the Sun of the
+//! same table in order in the same run, so that runs on different machines compare.
 
 use std::hint::black_box;
 use std::time::Instant as Clock;
@@ -12,20 +13,27 @@ use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::resampled::{Channel, Depth, Table};
 use nocturne::time::{JulianDate, Tdb};
 
-const FILE: &str = "de440.bin";
+/// Files, and the depth that has all their bits.
+const FILES: [(&str, Depth); 2] = [("de440.bin", Depth::Thousandth), ("de431.bin", Depth::Tenth)];
 const CALLS: u32 = 4096;
 const REPETITIONS: usize = 201;
 
 fn main() {
+    for (file, full) in FILES {
+        measure(file, full);
+    }
+}
+
+fn measure(file: &str, full: Depth) {
     let table = |depth: Depth| -> Table {
-        let layers = Catalogs::locate(None).and_then(|found| found.layers(FILE, depth.layers()));
+        let layers = Catalogs::locate(None).and_then(|found| found.layers(file, depth.layers()));
         match layers.map_err(|error| error.to_string()).and_then(Table::open) {
             Ok(table) => table,
-            Err(what) => panic!("{FILE}: {what}"),
+            Err(what) => panic!("{file}: {what}"),
         }
     };
-    println!("Reading {FILE}                     ms    bytes");
-    for depth in Depth::ALL {
+    println!("\nReading {file}                     ms    bytes");
+    for depth in Depth::ALL.into_iter().filter(|&depth| depth <= full) {
         let start = Clock::now();
         let table = table(depth);
         let ms = start.elapsed().as_secs_f64() * 1e3;
@@ -34,11 +42,11 @@ fn main() {
         println!("{:28} {ms:8.2} {bytes:8}", format!("to a {depth:?}"));
     }
 
-    let table = table(Depth::Thousandth);
+    let table = table(full);
     println!("\nchannel       value, in order   ratio  anywhere  and rate  unfolded  first touch");
     let mut baseline = None;
     for channel in table.channels() {
-        let depth = Depth::Thousandth;
+        let depth = full;
         let (first, last) = channel.span();
         // Each segment once, in an order that jumps.
         let segments = channel.recipe().segments;

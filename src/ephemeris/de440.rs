@@ -15,7 +15,6 @@
 //!
 //! *What is left out.* Asteroids, and the planets beside the barycentres of their systems.
 
-mod errors;
 mod orbits;
 
 use glam::DVec3;
@@ -23,7 +22,6 @@ use glam::DVec3;
 use super::kernel::Kernel;
 use super::resampled::{ChannelSource, Folding, Orbit, Recipe, Reference, encode};
 use crate::time::{JulianDate, Tdb};
-pub use errors::{BodyErrors, errors};
 
 /// First Julian date of DE440, and the days that it holds.
 const FIRST_JD: f64 = 2_287_184.5;
@@ -203,6 +201,12 @@ pub fn table(kernel: &Kernel) -> Result<Vec<u8>, String> {
         .map(|(plan, sample)| ChannelSource { recipe: plan.recipe(), sample })
         .collect();
     encode(&sources)
+}
+
+/// Position of a channel as the kernel has it, km.
+pub fn position_km(kernel: &Kernel, channel: &str, tdb: JulianDate<Tdb>) -> Result<DVec3, String> {
+    let plan = PLANS.iter().find(|plan| plan.id == channel);
+    plan.ok_or_else(|| format!("has no channel {channel:?}"))?.body.km(kernel, tdb)
 }
 
 impl Plan {

@@ -80,7 +80,7 @@ impl Ephemeris {
             de440: read(DE440_FILE, depth, Tier::De440(depth))?,
             nutations: Nutations::load(catalogs)?,
             moon_orientation: MoonOrientation::load(catalogs)?,
-            de431: read(DE431_FILE, Depth::Tenth, Tier::De431).unwrap_or_default(),
+            de431: read(DE431_FILE, Depth::Tenth, Tier::De431)?,
         })
     }
 

@@ -4,6 +4,7 @@
 use glam::{DMat3, DVec3};
 
 use super::header::{Fields, Writer};
+use crate::ephemeris::deep_moon;
 use crate::ephemeris::orientation::Nutation;
 use crate::ephemeris::polynomial::polynomial;
 use crate::time::{JulianDate, Tdb};
@@ -27,6 +28,8 @@ pub enum Reference {
     ShortNutation,
     /// A mean ellipse; residuals are radial, transverse and normal to its plane.
     Orbit(Box<Orbit>),
+    /// The series of [`crate::ephemeris::deep_moon`]; residuals lie along the axes of the ICRS.
+    DeepMoon,
 }
 
 /// A Kepler ellipse whose elements change with time, in ecliptic and equinox J2000.0.
@@ -68,6 +71,9 @@ impl Reference {
                 Station { origin: nutation.vector_rad(), axes: DMat3::IDENTITY }
             }
             Reference::Orbit(orbit) => orbit.at(tdb),
+            Reference::DeepMoon => {
+                Station { origin: deep_moon::moon(tdb).km(), axes: DMat3::IDENTITY }
+            }
         }
     }
 
@@ -81,6 +87,7 @@ impl Reference {
                     powers.iter().for_each(|&value| writer.f64(value));
                 }
             }
+            Reference::DeepMoon => writer.u8(3),
         }
     }
 
@@ -97,6 +104,7 @@ impl Reference {
                 Ok(Reference::Orbit(Box::new(orbit)))
             }
             2 => Ok(Reference::ShortNutation),
+            3 => Ok(Reference::DeepMoon),
             other => Err(format!("asks for reference {other}, which this program does not know")),
         }
     }
