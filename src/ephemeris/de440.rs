@@ -4,11 +4,11 @@
 //! *Source.* JPL's ephemeris DE440 (Park, Folkner, Williams & Boggs 2021, AJ 161, 105), a numerical
 //! integration fitted to all that has been measured, 1549-12-31 to 2650-01-25.
 //!
-//! *What is kept.* Sun and planets as they are seen from the Earth within 0.0006", 0.006" and 0.06"
+//! *What is kept.* Sun and planets as they are seen from the Earth within 0.06", 0.006" and 0.0006"
 //! at the three depths, the Moon's distance within 0.7 m at the last; `cargo run --bin pack` prints
-//! what it measures. So Venus and the Earth-Moon barycentre, which come as close as 0.27 au, are kept within
-//! 0.1 km, and Neptune within 10 km. What strays along the radius may be twice as coarse as what
-//! strays across it: it is seen from the Sun's side.
+//! what it measures. So Venus, which comes as close as 0.27 au, is kept within 0.1 km, and Neptune
+//! within 5. What strays along the radius may be up to twice as coarse as what strays across it:
+//! where a planet is near, its radius points at us.
 //!
 //! The errors that it prints are those of folded values; beside them stands how far folding moved
 //! what is stored.
