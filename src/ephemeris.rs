@@ -14,13 +14,13 @@
 //!
 //! | | -4000 | -3000 | -2000 | -1000 | 0 | 1000 | 1550 | 1800 | 2050 | 2650 | 3000 |
 //! |---|---|---|---|---|---|---|---|---|---|---|---|
-//! | Sun, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Sun, DE431 | - | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 | 0.1 |
 //! | Moon, DE431 | - | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 | 3 |
-//! | Mercury, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
-//! | Venus, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
-//! | Mars, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
-//! | Jupiter, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
-//! | Saturn, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
+//! | Mercury, DE431 | - | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 |
+//! | Venus, DE431 | - | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 |
+//! | Mars, DE431 | - | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 |
+//! | Jupiter, DE431 | - | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 | 0.3 |
+//! | Saturn, DE431 | - | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 | 0.2 |
 //! | Uranus, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
 //! | Neptune, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
 //! | Pluto, DE431 | - | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 | 1 |
@@ -39,7 +39,8 @@
 //!
 //! The tables of DE440, 1550 to 2650, keep 0.1, 0.01 and 0.001 arcseconds for every body, as deep as
 //! they are read; distances at the deepest: Moon 1 m, Sun 0.3 km, Mercury to Mars 1 km, the others 20
-//! km. The table of DE431 ends at -3000 and +3000. What a place costs by each tier,
+//! km. The table of DE431 ends at -3000 and +3000; it follows DE431 within 0.12
+//! arcseconds, the Moon within 1 (`pack` prints it), and DE440 has moved Neptune by 1.7 since. What a place costs by each tier,
 //! `cargo bench --bench ephemeris` prints; where a table serves, it is also the cheapest.
 //!
 //! The paper tier ends at -1000, where its Moon is three degrees off; everything else is served from

@@ -92,7 +92,9 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
         let Ok(body) = row.text("body").parse::<Body>() else { return };
         let instant = de440_instant(row);
         let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
-        for tier in Tier::ALL.into_iter().filter(|&tier| tier.knows(body) && EPHEMERIS.has(tier)) {
+        // DE431 is measured against itself: DE440 has moved the outer planets since.
+        let tiers = Tier::ALL.into_iter().filter(|&tier| tier != Tier::De431);
+        for tier in tiers.filter(|tier| tier.knows(body)) {
             let bound = tier.bound(body, instant.tdb).unwrap();
             let seen = ApparentPlace::of(
                 &EPHEMERIS,
@@ -221,8 +223,10 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
     });
     largest.print();
     assert!(checked > 350, "{checked}");
-    // A bound that nothing comes near would be no measure.
-    assert!(largest.0.values().all(|&part| part > 0.2));
+    // A bound that nothing comes near would be no measure; the table of DE431 has one of its own
+    // in `deep_time.rs`.
+    let measured = largest.0.iter().filter(|(name, _)| !name.contains("DE431"));
+    assert!(measured.map(|(_, part)| *part).all(|part| part > 0.2));
 }
 
 /// Hipparcos (ESA 1997), brought from J1991.25 to J2000.0 with space motion (ERFA `pmsafe`).
@@ -446,7 +450,7 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
 
 #[test]
 fn the_earths_velocity_is_the_rate_of_its_position() {
-    for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
+    for tier in Tier::ALL.into_iter() {
         let at = JulianDate::from_jd(2_460_123.25);
         let state = |seconds: f64| EPHEMERIS.earth(at.plus_seconds(seconds), tier).unwrap();
         let rate: DVec3 = (state(600.0).position - state(-600.0).position).km() / 1200.0;

@@ -5,7 +5,8 @@
 //! 42-196), a numerical integration over thirty millennia, out of the files of Swiss Ephemeris, which
 //! keep it within a few milliarcseconds.
 //!
-//! *What is kept.* ACCURACY
+//! *What is kept.* Planets within 0.12", the Moon within 1" as the Earth sees them: the largest of 100,000
+//! dates, which `pack` prints.
 //! One depth: all bits lie in the first layer.
 //!
 //! *How the Moon is kept.* By [`super::resampled::Reference::DeepMoon`], a series, with nothing stored

@@ -10,7 +10,8 @@
 //! time follow it. The ecliptic is that of DE431's own Earth, smoothed, and longitudes count from a
 //! point in it that does not turn, so that no model of precession comes in.
 //!
-//! *Accuracy.* ACCURACY
+//! *Accuracy.* Within 1" and 1.8 km of DE431, the largest of 100,000 dates (`pack` prints it). What DE440
+//! has changed since is as much: 0.8" at 1550, 1.6" at 2650.
 
 mod arguments;
 mod distance;

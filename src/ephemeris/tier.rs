@@ -23,7 +23,7 @@ pub type Tolerance = Angle;
 pub enum Tier {
     /// JPL's DE440, resampled; read to a depth.
     De440(Depth),
-    /// JPL's DE431, resampled to half an arcsecond: three millennia both ways.
+    /// JPL's DE431, resampled: three millennia both ways, a tenth of an arcsecond, the Moon one.
     De431,
     /// The formulas of the paper, Sun and Moon only: arcminutes. `benches/ephemeris.rs` prints what
     /// a place costs by each tier.
@@ -70,8 +70,23 @@ const NONE: f64 = f64::INFINITY;
 
 /// DE440 resampled, whole span: arcseconds by depth.
 const DE440: [f64; 3] = [0.1, 0.01, 0.001];
-const DE431: Eras = [NONE, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
-const DE431_MOON: Eras = [NONE, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0];
+/// DE431 resampled, whole span: what the table strays by, below 0.12" and 1" for the Moon, and room for
+/// what DE440 has changed since.
+const fn de431(arcsec: f64) -> Eras {
+    let mut eras = [arcsec; 11];
+    eras[0] = NONE;
+    eras
+}
+const DE431_SUN: Eras = de431(0.1);
+const DE431_MOON: Eras = de431(3.0);
+const DE431_MERCURY: Eras = de431(0.2);
+const DE431_VENUS: Eras = de431(0.2);
+const DE431_MARS: Eras = de431(0.2);
+const DE431_JUPITER: Eras = de431(0.3);
+const DE431_SATURN: Eras = de431(0.2);
+const DE431_URANUS: Eras = de431(1.0);
+const DE431_NEPTUNE: Eras = de431(1.0);
+const DE431_PLUTO: Eras = de431(1.0);
 
 const PAPER_SUN: Eras = [NONE, NONE, NONE, 1150.0, 520.0, 150.0, 55.0, 65.0, 125.0, 230.0, 680.0];
 const PAPER_MOON: Eras =
@@ -181,8 +196,16 @@ impl Tier {
     const fn eras(self, body: Body) -> &'static Eras {
         match (self, body) {
             (Tier::De440(_), _) => &[NONE; 11],
+            (Tier::De431, Body::Sun) => &DE431_SUN,
             (Tier::De431, Body::Moon) => &DE431_MOON,
-            (Tier::De431, _) => &DE431,
+            (Tier::De431, Body::Mercury) => &DE431_MERCURY,
+            (Tier::De431, Body::Venus) => &DE431_VENUS,
+            (Tier::De431, Body::Mars) => &DE431_MARS,
+            (Tier::De431, Body::Jupiter) => &DE431_JUPITER,
+            (Tier::De431, Body::Saturn) => &DE431_SATURN,
+            (Tier::De431, Body::Uranus) => &DE431_URANUS,
+            (Tier::De431, Body::Neptune) => &DE431_NEPTUNE,
+            (Tier::De431, Body::Pluto) => &DE431_PLUTO,
             (Tier::Paper, Body::Sun) => &PAPER_SUN,
             (Tier::Paper, Body::Moon) => &PAPER_MOON,
             (Tier::Paper, _) => &[NONE; 11],
