@@ -307,7 +307,7 @@ class Series:
 
 
 def powers_of(coefficients):
-    return ", ".join(f"{value:.16e}" for value in chebyshev.cheb2poly(coefficients))
+    return ", ".join(repr(float(value)) for value in chebyshev.cheb2poly(coefficients))
 
 
 def write(series, pole, folder):

@@ -117,8 +117,8 @@ fn write(
     bar: &ProgressBar,
     out: &mut dyn Write,
 ) -> Result<(), CliError> {
-    sheet.begin(heading, out)?;
     let mut events = almanac.events(&heading.from, &heading.to).map_err(name_option)?;
+    sheet.begin(heading, out)?;
     while let Some(event) = events.next() {
         sheet.event(heading, &event?, out)?;
         bar.set_position((events.progress() * 1000.0) as u64);
