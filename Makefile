@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens pictures pack clean
+.PHONY: sky test lint goldens pictures kernels pack clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
@@ -37,7 +37,11 @@ pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 
-# Packs the catalogues again from the raw tables.
+# Fetches the ephemerides that the tables of motion are packed from: 120 MB and more.
+kernels:
+	scripts/fetch_kernels.sh
+
+# Packs the catalogues again from the raw tables, and from the kernels if they were fetched.
 pack:
 	cargo run --release --bin pack
 

@@ -111,7 +111,7 @@ fn plan(
     let air = Atmosphere::default();
     let stars = catalogs.stars()?;
     let sky = SkyState::at(
-        &Ephemeris::load(catalogs)?,
+        &Ephemeris::load(catalogs, setting.tolerance)?,
         &setting.instant,
         &setting.place,
         setting.tolerance,

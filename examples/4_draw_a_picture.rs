@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::parse(SCENE)?;
     let setting = scene.setting()?;
     // Where everything stands, how bright it is, and where on the picture it falls.
-    let ephemeris = Ephemeris::load(&catalogs)?;
+    let ephemeris = Ephemeris::load(&catalogs, setting.tolerance)?;
     let sky = SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
     let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;

@@ -17,6 +17,7 @@ use crate::units::Magnitude;
 mod bsc5;
 mod colour;
 mod csv;
+mod hipparcos;
 pub mod layered;
 pub mod moon;
 pub mod pack;
@@ -24,10 +25,12 @@ pub mod places;
 mod seal;
 pub mod stars;
 
+pub use hipparcos::Astrometry;
 pub use moon::MoonMap;
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
+const ASTROMETRY_FILE: &str = "hipparcos.csv";
 const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
@@ -128,6 +131,14 @@ impl Catalogs {
         Ok(records.into_iter().map(Star::from).collect())
     }
 
+    /// The few stars whose places are known to the milliarcsecond here.
+    pub fn astrometry(&self) -> Result<Vec<Astrometry>, CatalogError> {
+        self.read(ASTROMETRY_FILE, |bytes| {
+            let text = std::str::from_utf8(&bytes).map_err(|_| "is not UTF-8")?;
+            hipparcos::parse(text).map_err(|(line, what)| format!("line {line}: {what}"))
+        })
+    }
+
     /// The gazetteer as a table: a line with [`places::COLUMNS`], then one line per place.
     pub fn places_text(&self) -> Result<String, CatalogError> {
         self.read(PLACES_FILE, places::open)
@@ -146,6 +157,11 @@ impl Catalogs {
                 .map_err(|what| CatalogError::Damaged { path, what }),
             Err(source) => Err(CatalogError::Unreadable { path, source }),
         }
+    }
+
+    /// The error that a file which was read says nothing sensible.
+    pub fn damaged(&self, file: &str, what: String) -> CatalogError {
+        CatalogError::Damaged { path: self.directory.join(file), what }
     }
 
     fn read<T>(

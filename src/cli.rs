@@ -6,6 +6,7 @@
 
 mod almanac;
 mod draw;
+mod ephemeris;
 mod error;
 mod look;
 mod objects;
@@ -51,6 +52,8 @@ enum Command {
     Objects(objects::ObjectsArgs),
     /// List what happens in the sky: rise and set, twilight, phases, meetings, dark nights
     Almanac(almanac::AlmanacArgs),
+    /// Write tables of where bodies and stars are seen, of any length
+    Ephemeris(ephemeris::EphemerisArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -138,6 +141,7 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Place(args) => place::run(args, &catalogs, out),
         Command::Objects(args) => objects::run(args, &catalogs, out),
         Command::Almanac(args) => almanac::run(args, &catalogs, out),
+        Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
         #[cfg(feature = "gpu")]
         Command::Adapter => Ok(()),
     }

@@ -33,8 +33,11 @@
 //! Distances, relative, in 1550-2650: Moon 0.00003 (series) and 0.0016 (paper), Sun 0.00001 and
 //! 0.0001, planets 0.0002, Pluto 0.0006 (the largest of 2000 places against DE440).
 
+mod analytic;
 pub mod apparent;
 mod body;
+pub mod de440;
+pub mod kernel;
 mod moon;
 pub mod moon_orientation;
 mod observation;
@@ -42,8 +45,8 @@ pub mod orientation;
 mod paper;
 mod planets;
 mod polynomial;
-mod position;
 pub mod resampled;
+mod solar_system;
 pub mod stars;
 mod tables;
 mod tier;
@@ -51,6 +54,6 @@ mod tier;
 pub use body::{Body, UnknownBody};
 pub use observation::{Observation, Seen};
 pub use planets::saturn_pole;
-pub use position::EarthState;
-pub use tables::Ephemeris;
+pub use resampled::Depth;
+pub use tables::{EarthState, Ephemeris};
 pub use tier::{EphemerisError, Tier, Tolerance};

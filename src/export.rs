@@ -6,6 +6,7 @@ mod draft;
 pub mod exr;
 #[cfg(feature = "cli")]
 pub mod png;
+pub mod table;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

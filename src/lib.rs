@@ -17,8 +17,9 @@
 //! let instant = time::to_instant(&time::parse("2026-01-18T06:00Z")?, None)?;
 //! let place = Place::new(35.198, -111.651, 2106.0)?;
 //! let catalogs = Catalogs::locate(None)?;
-//! let ephemeris = Ephemeris::load(&catalogs)?;
-//! let sky = SkyState::at(&ephemeris, &instant, &place, Angle::from_arcmin(1.0))?;
+//! let tolerance = Angle::from_arcmin(1.0);
+//! let ephemeris = Ephemeris::load(&catalogs, tolerance)?;
+//! let sky = SkyState::at(&ephemeris, &instant, &place, tolerance)?;
 //! // ... directions become light ...
 //! let night = Night::of(sky, catalogs.stars()?, &Atmosphere::default());
 //! let sirius = night.find("Sirius").expect("it is in the catalogue");

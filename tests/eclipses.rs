@@ -2,7 +2,7 @@
 //!
 //! Tolerances grow by [`LunarEclipse::uncertainty_s`]: what the theory of the Moon does not know is
 //! measured elsewhere. With the tables of DE440 it is a hundredth of a second; with the series
-//! alone a minute, and that the eclipses stay within it is tested too.
+//! alone 100 s, and that the eclipses stay within it is tested too.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -89,7 +89,9 @@ impl Largest {
     fn check(&mut self, name: &str, value: f64, tolerance: f64, what: &dyn std::fmt::Display) {
         let largest = self.0.entry(name.to_owned()).or_default();
         *largest = largest.max(value.abs());
-        if !(value.abs() <= tolerance) {
+        // NaN is within nothing.
+        let is_within = value.abs() <= tolerance;
+        if !is_within {
             self.print();
             panic!("{name} of {what}: {value} > {tolerance}");
         }
@@ -171,8 +173,8 @@ fn solar_eclipses_agree_with_the_reference_table() {
         largest.check("obscuration_swe", obscuration, 0.002 + slack, what);
         let gamma = eclipse.gamma.abs() - row.number("gamma_abs_er_de440");
         largest.check("gamma", gamma, 2e-5 + slack / 2.0, what);
-        // The Swiss Ephemeris is less strict about the flattening: a tenth of a degree at the rim. And
-        // in a second the shadow goes half a kilometre, more where it falls aslant.
+        // The Swiss Ephemeris is less strict about the flattening: a tenth of a degree at the rim.
+        // And in a second the shadow goes half a kilometre, more where it falls aslant.
         let rim = if eclipse.gamma.abs() > 0.9 { 0.12 } else { 0.03 };
         let meridians = eclipse.place.latitude.cos();
         let tolerance_deg = rim + 0.02 * slack_s;
@@ -285,8 +287,8 @@ fn contacts_with_the_shadows_come_when_they_should() {
                 assert!(slack_s > 1.0 || phase.is_none() == theirs[0].is_none(), "{greatest}");
                 continue;
             };
-            // The Swiss Ephemeris has its own shadow of the Earth, 2" from ours; we take a cone for a
-            // cylinder. The shorter a phase, the more obliquely rims cross.
+            // The Swiss Ephemeris has its own shadow of the Earth, 2" from ours; we take a cone
+            // for a cylinder. The shorter a phase, the more obliquely rims cross.
             let length_s = (ours[1].tt - ours[0].tt) * DAY_S;
             let (tolerance_s, longest_s) = if body == "moon" { (6.0, 20e3) } else { (0.3, 10e3) };
             let grazing = (longest_s / length_s).max(1.0);
@@ -411,7 +413,8 @@ fn a_lunar_eclipse_is_seen_where_the_moon_is_up() {
 
 #[test]
 fn a_solar_eclipse_ends_with_sunset_where_it_does() {
-    // 2026-08-12: on Mallorca the Sun is total 2.5 degrees high, in Rome it sets before the maximum.
+    // 2026-08-12: on Mallorca the Sun is total 2.5 degrees high, in Rome it sets before the
+    // maximum.
     let eclipse = solar_at(2_461_265.24);
     let at = |latitude, longitude| {
         let place = Place::new(latitude, longitude, 0.0).unwrap();
@@ -455,8 +458,8 @@ fn at_contacts_the_rims_touch_as_their_position_angles_say() {
     }
 }
 
-/// Width and duration of the path where the eclipse is greatest, from the Five Millennium Catalog of
-/// Espenak & Meeus: calendar dates as Julian dates, kilometres, seconds.
+/// Width and duration of the path where the eclipse is greatest, from the Five Millennium Catalog
+/// of Espenak & Meeus: calendar dates as Julian dates, kilometres, seconds.
 #[test]
 fn paths_are_as_wide_and_long_as_the_canon_says() {
     let canon = [

@@ -1,13 +1,14 @@
 //! Positions against authorities: DE440 reduced by ERFA, and DE431 over eight millennia.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use glam::DVec3;
-use nocturne::catalog::Star;
+use nocturne::catalog::{Catalogs, Star};
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
 use nocturne::ephemeris::moon_orientation::{Libration, axis_position_angle, moon_fixed_from_icrs};
 use nocturne::ephemeris::stars::StarReduction;
-use nocturne::ephemeris::{Body, Ephemeris, EphemerisError, Tier};
+use nocturne::ephemeris::{Body, Depth, Ephemeris, EphemerisError, Observation, Tier};
 use nocturne::frame::{Dir, Horizon, Icrs, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
@@ -16,6 +17,11 @@ use nocturne::units::{AU_KM, Angle, DAY_S, LIGHT_SPEED_KM_S, Magnitude};
 
 const DE440: &str = include_str!("truth/ephemeris_de440.csv");
 const DEEP_TIME: &str = include_str!("truth/ephemeris_deep_time.csv");
+
+/// With every table, read in full.
+static EPHEMERIS: LazyLock<Ephemeris> = LazyLock::new(|| {
+    Ephemeris::load(&Catalogs::locate(None).unwrap(), Angle::from_arcsec(0.001)).unwrap()
+});
 
 /// One line of a table with named columns.
 struct Row<'a> {
@@ -47,9 +53,8 @@ fn for_each_row(table: &str, mut check: impl FnMut(&Row)) {
     }
 }
 
-/// TDB is within 2 ms of TT: 0.001" of the Moon.
 fn instant(tt: JulianDate<Tt>, ut1: JulianDate<Ut1>) -> Instant {
-    Instant { utc: ut1.read_on(0.0), ut1, tt, tdb: tt.read_on(0.0) }
+    Instant::from_tt_ut1(tt, ut1).unwrap()
 }
 
 fn de440_instant(row: &Row) -> Instant {
@@ -86,15 +91,15 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
     for_each_row(DE440, |row| {
         let Ok(body) = row.text("body").parse::<Body>() else { return };
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
-        for tier in Tier::ALL.into_iter().filter(|tier| tier.knows(body)) {
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
+        for tier in Tier::ALL.into_iter().filter(|&tier| tier.knows(body) && EPHEMERIS.has(tier)) {
             let bound = tier.bound(body, instant.tdb).unwrap();
             let seen = ApparentPlace::of(
-                &Ephemeris::analytic(),
+                &EPHEMERIS,
                 body,
                 tier,
                 &observer,
-                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
+                &EPHEMERIS.earth(instant.tdb, tier).unwrap(),
             )
             .unwrap();
             let geocentric: Dir<TrueOfDate> = row.dir("geo_ra_app_deg", "geo_dec_app_deg");
@@ -119,6 +124,8 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
             let distance = seen.topocentric_distance_km / row.number("topo_dist_km") - 1.0;
             largest.note(format!("{body} {tier} distance, relative"), distance);
             let tolerance = match tier {
+                // Along the line of sight as well as across.
+                Tier::De440(_) | Tier::De431 => 2.0 * bound.rad(),
                 Tier::Paper => 5e-3,
                 Tier::Series => 1e-3,
             };
@@ -131,6 +138,56 @@ fn bodies_stand_where_de440_puts_them_within_the_bound_of_each_tier() {
 }
 
 #[test]
+fn the_best_places_are_as_good_as_almanacs_need() {
+    let mut largest = Largest::default();
+    for_each_row(DE440, |row| {
+        let Ok(body) = row.text("body").parse::<Body>() else { return };
+        let instant = de440_instant(row);
+        let near =
+            (1950.0..2050.0).contains(&(2000.0 + instant.tt.centuries_since_j2000() * 100.0));
+        let place = de440_place(row);
+        let mut observation =
+            Observation::at(&EPHEMERIS, &instant, &place, Angle::from_arcsec(0.001));
+        let seen = observation.seen(body).unwrap().place;
+        let geocentric: Dir<TrueOfDate> = row.dir("geo_ra_app_deg", "geo_dec_app_deg");
+        let topocentric: Dir<TrueOfDate> = row.dir("topo_ra_app_deg", "topo_dec_app_deg");
+        let horizon: Dir<Horizon> =
+            Dir::from_azimuth_altitude(row.angle("az_deg"), row.angle("alt_deg_airless"));
+        // The table is rounded to a nanodegree: 0.000004".
+        let (limit_arcsec, limit_km) = match (body, near) {
+            (Body::Sun, true) => (0.001, 0.3),
+            (Body::Sun, false) => (0.0015, 0.3),
+            (Body::Moon, true) => (0.001, 0.001),
+            (Body::Moon, false) => (0.0015, 0.001),
+            (Body::Mercury | Body::Venus | Body::Mars, true) => (0.001, 1.0),
+            (Body::Mercury | Body::Venus | Body::Mars, false) => (0.0015, 1.0),
+            (_, true) => (0.001, 20.0),
+            (_, false) => (0.0015, 20.0),
+        };
+        let era = if near { "1950-2050" } else { "1550-2650" };
+        for (which, error) in [
+            ("geocentric", seen.geocentric.separation(geocentric)),
+            ("topocentric", seen.topocentric.separation(topocentric)),
+            ("horizon", seen.horizon.separation(horizon)),
+        ] {
+            let at = format!("{body} {which} {era}, arcsec");
+            largest.note(at.clone(), error.arcsec());
+            assert!(error.arcsec() < limit_arcsec, "{at} at {:?}: {}", instant.tt, error.arcsec());
+        }
+        for (which, error_km) in [
+            ("geocentric", seen.geocentric_distance_km - row.number("geo_dist_km")),
+            ("topocentric", seen.topocentric_distance_km - row.number("topo_dist_km")),
+        ] {
+            let at = format!("{body} {which} distance, km");
+            largest.note(at.clone(), error_km);
+            assert!(error_km.abs() < limit_km, "{at} at {:?}: {error_km}", instant.tt);
+        }
+    });
+    largest.print();
+    assert_eq!(largest.0.len(), 80);
+}
+
+#[test]
 fn bodies_stay_within_their_bounds_over_eight_millennia() {
     let mut largest = Largest::default();
     let place = Place::new(0.0, 0.0, 0.0).unwrap();
@@ -138,17 +195,19 @@ fn bodies_stay_within_their_bounds_over_eight_millennia() {
     for_each_row(DEEP_TIME, |row| {
         let body: Body = row.text("body").parse().unwrap();
         let tt = JulianDate::from_jd(row.number("jd_tt"));
-        let instant = instant(tt, tt.read_on(0.0));
-        let observer = Observer::at(&instant, &place);
+        // The first dates lie before all calendars. TDB is within 2 ms of TT: 0.001" of the Moon.
+        let instant =
+            Instant { utc: tt.read_on(0.0), ut1: tt.read_on(0.0), tt, tdb: tt.read_on(0.0) };
+        let observer = Observer::at(&EPHEMERIS, &instant, &place, Angle::ZERO);
         let truth: Dir<TrueOfDate> = row.dir("ra_deg", "dec_deg");
-        for tier in Tier::ALL {
+        for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
             let Some(bound) = tier.bound(body, instant.tdb) else { continue };
             let seen = ApparentPlace::of(
-                &Ephemeris::analytic(),
+                &EPHEMERIS,
                 body,
                 tier,
                 &observer,
-                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
+                &EPHEMERIS.earth(instant.tdb, tier).unwrap(),
             )
             .unwrap();
             let error = seen.geocentric.separation(truth);
@@ -205,18 +264,16 @@ fn star(name: &str) -> Option<Star> {
 #[test]
 fn stars_stand_where_hipparcos_and_erfa_put_them() {
     let mut largest = Largest::default();
+    let analytic = Ephemeris::analytic();
     for_each_row(DE440, |row| {
         let Some(star) = star(row.text("body")) else { return };
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
         let topocentric: Dir<TrueOfDate> = row.dir("topo_ra_app_deg", "topo_dec_app_deg");
         let horizon: Dir<Horizon> =
             Dir::from_azimuth_altitude(row.angle("az_deg"), row.angle("alt_deg_airless"));
         for (tier, tolerance_arcsec) in [(Tier::Series, 0.05), (Tier::Paper, 0.2)] {
-            let stars = StarReduction::new(
-                &observer,
-                &Ephemeris::analytic().earth(instant.tdb, tier).unwrap(),
-            );
+            let stars = StarReduction::new(&observer, &EPHEMERIS.earth(instant.tdb, tier).unwrap());
             let equatorial = observer.true_from_icrs * stars.icrs(&star);
             let local = stars.horizon_all(std::slice::from_ref(&star))[0];
             for (which, error) in [
@@ -241,11 +298,10 @@ fn the_moon_turns_as_its_integrated_librations_say() {
             return;
         }
         let instant = de440_instant(row);
-        let observer = Observer::at(&instant, &de440_place(row));
-        let earth = Ephemeris::analytic().earth(instant.tdb, Tier::Series).unwrap();
+        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
+        let earth = EPHEMERIS.earth(instant.tdb, Tier::Series).unwrap();
         let seen =
-            ApparentPlace::of(&Ephemeris::analytic(), Body::Moon, Tier::Series, &observer, &earth)
-                .unwrap();
+            ApparentPlace::of(&EPHEMERIS, Body::Moon, Tier::Series, &observer, &earth).unwrap();
         let light_time_days = seen.geocentric_distance_km / LIGHT_SPEED_KM_S / DAY_S;
         let axes = moon_fixed_from_icrs(instant.tdb.plus_days(-light_time_days));
 
@@ -280,15 +336,10 @@ fn the_sky_agrees_with_the_table_on_phase_and_size() {
             return;
         }
         let place = de440_place(row);
-        let sky = SkyState::at(
-            &Ephemeris::analytic(),
-            &de440_instant(row),
-            &place,
-            Angle::from_arcsec(60.0),
-        )
-        .unwrap();
+        let sky = SkyState::at(&EPHEMERIS, &de440_instant(row), &place, Angle::from_arcsec(60.0))
+            .unwrap();
         let moon = &sky.moon;
-        assert_eq!(moon.state.tier, Tier::Series);
+        assert_eq!(moon.state.tier, Tier::De440(Depth::Tenth));
         let diameter_arcsec = 2.0 * moon.state.angular_radius.arcsec();
         assert!((diameter_arcsec - row.number("topo_ang_diam_arcsec")).abs() < 0.3);
         // Topocentric phase differs from the geocentric one of the table by the parallax at most.
@@ -309,7 +360,8 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
     let tt = JulianDate::from_jd(2_451_545.0);
     let instant = instant(tt, tt.read_on(-63.83));
     let place = Place::new(35.0, -111.0, 2100.0).unwrap();
-    let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, Angle::from_deg(1.0)).unwrap();
+    let analytic = Ephemeris::analytic();
+    let sky = SkyState::at(&analytic, &instant, &place, Angle::from_deg(1.0)).unwrap();
     assert_eq!(sky.sun.tier, Tier::Paper);
     assert_eq!(sky.moon.state.tier, Tier::Paper);
     for body in Body::ALL {
@@ -329,18 +381,40 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
 
 #[test]
 fn the_cheapest_tier_that_is_good_enough_is_chosen() {
-    let now = JulianDate::from_jd(2_460_000.5);
-    let chosen = |body, arcsec| {
-        Ephemeris::analytic().choose(body, Angle::from_arcsec(arcsec), now).unwrap().0
+    let (now, then) = (JulianDate::from_jd(2_460_000.5), JulianDate::from_jd(1_500_000.5));
+    let chosen = |ephemeris: &Ephemeris, body, arcsec, tdb| {
+        ephemeris.choose(body, Angle::from_arcsec(arcsec), tdb).unwrap().0
     };
-    assert_eq!(chosen(Body::Sun, 300.0), Tier::Paper);
-    assert_eq!(chosen(Body::Sun, 30.0), Tier::Series);
-    assert_eq!(chosen(Body::Moon, 300.0), Tier::Series);
-    assert_eq!(chosen(Body::Mars, 3600.0), Tier::Series);
+    let analytic = Ephemeris::analytic();
+    assert_eq!(chosen(&analytic, Body::Sun, 300.0, now), Tier::Paper);
+    assert_eq!(chosen(&analytic, Body::Sun, 30.0, now), Tier::Series);
+    assert_eq!(chosen(&analytic, Body::Moon, 300.0, now), Tier::Series);
+    assert_eq!(chosen(&analytic, Body::Mars, 3600.0, now), Tier::Series);
     // Nothing is as good as this: the best there is.
-    let (tier, bound) =
-        Ephemeris::analytic().choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
+    let (tier, bound) = analytic.choose(Body::Moon, Angle::from_arcsec(1e-3), now).unwrap();
     assert_eq!((tier, Some(bound)), (Tier::Series, Tier::Series.bound(Body::Moon, now)));
+
+    for (arcsec, depth) in [
+        (3600.0, Depth::Tenth),
+        (0.1, Depth::Tenth),
+        (0.05, Depth::Hundredth),
+        (0.01, Depth::Hundredth),
+        (0.001, Depth::Thousandth),
+        (1e-6, Depth::Thousandth),
+    ] {
+        assert_eq!(chosen(&EPHEMERIS, Body::Venus, arcsec, now), Tier::De440(depth));
+        assert_eq!(chosen(&EPHEMERIS, Body::Venus, arcsec, then), Tier::De431);
+    }
+    // Read no deeper than was asked.
+    let coarse =
+        Ephemeris::load(&Catalogs::locate(None).unwrap(), Angle::from_arcsec(5.0)).unwrap();
+    assert_eq!(chosen(&coarse, Body::Venus, 0.001, now), Tier::De440(Depth::Tenth));
+    let refused = coarse.geometric(Body::Venus, now, Tier::De440(Depth::Hundredth)).unwrap_err();
+    assert!(refused.to_string().contains("not to that depth"), "{refused}");
+    assert!(matches!(
+        analytic.geometric(Body::Venus, now, Tier::De431),
+        Err(EphemerisError::NotLoaded { .. })
+    ));
 }
 
 #[test]
@@ -348,19 +422,17 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
     for jd in [2.0e5, 3.3e6, f64::NAN] {
         let far = JulianDate::from_jd(jd);
         assert!(matches!(
-            Ephemeris::analytic().geometric(Body::Sun, far, Tier::Series),
+            EPHEMERIS.geometric(Body::Sun, far, Tier::Series),
             Err(EphemerisError::Date { .. })
         ));
-        assert!(Ephemeris::analytic().choose(Body::Moon, Angle::from_deg(1.0), far).is_err());
+        assert!(EPHEMERIS.choose(Body::Moon, Angle::from_deg(1.0), far).is_err());
     }
-    let refused =
-        Ephemeris::analytic().geometric(Body::Mars, JulianDate::from_jd(2_451_545.0), Tier::Paper);
+    let refused = EPHEMERIS.geometric(Body::Mars, JulianDate::from_jd(2_451_545.0), Tier::Paper);
     assert_eq!(
         refused.unwrap_err().to_string(),
         "Mars: the paper tier has no theory of it; use the series tier"
     );
-    let early =
-        Ephemeris::analytic().geometric(Body::Moon, JulianDate::from_jd(1_000_000.0), Tier::Paper);
+    let early = EPHEMERIS.geometric(Body::Moon, JulianDate::from_jd(1_000_000.0), Tier::Paper);
     assert_eq!(
         early.unwrap_err().to_string(),
         "Moon: the year -1974.1 is outside -1000 to 4001, where the paper tier holds; choose a date \
@@ -370,10 +442,9 @@ fn dates_and_bodies_without_a_theory_are_refused_in_words() {
 
 #[test]
 fn the_earths_velocity_is_the_rate_of_its_position() {
-    for tier in Tier::ALL {
+    for tier in Tier::ALL.into_iter().filter(|&tier| EPHEMERIS.has(tier)) {
         let at = JulianDate::from_jd(2_460_123.25);
-        let state =
-            |seconds: f64| Ephemeris::analytic().earth(at.plus_seconds(seconds), tier).unwrap();
+        let state = |seconds: f64| EPHEMERIS.earth(at.plus_seconds(seconds), tier).unwrap();
         let rate: DVec3 = (state(600.0).position - state(-600.0).position).km() / 1200.0;
         assert!((rate - state(0.0).velocity_km_s).length() < 1e-4, "{tier}");
     }

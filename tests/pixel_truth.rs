@@ -24,7 +24,7 @@ const CLOCK_ARCSEC: f64 = 1.0;
 
 fn described(scene: &Scene, stars: &Catalogs) -> Description {
     let setting = scene.setting().unwrap();
-    let ephemeris = Ephemeris::load(stars).unwrap();
+    let ephemeris = Ephemeris::load(stars, setting.tolerance).unwrap();
     let sky =
         SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance).unwrap();
     Description::of(&setting, &Night::of(sky, stars.stars().unwrap(), &scene.air))

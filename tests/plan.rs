@@ -36,7 +36,7 @@ fn at(utc: &str) -> Scene {
 fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
     let catalogs = Catalogs::locate(None).unwrap();
     let setting = scene.setting().unwrap();
-    let ephemeris = Ephemeris::load(&catalogs).unwrap();
+    let ephemeris = Ephemeris::load(&catalogs, setting.tolerance).unwrap();
     let sky =
         SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance).unwrap();
     let night = Night::of(sky, catalogs.stars().unwrap(), &scene.air);

@@ -48,6 +48,11 @@ impl Polynomial {
         Polynomial { slope: differentiated(&value), value }
     }
 
+    /// The straight line between values at -1 and 1.
+    pub fn between(first: f64, last: f64) -> Polynomial {
+        Polynomial::through(&NODES.map(|x| 0.5 * (first * (1.0 - x) + last * (1.0 + x))))
+    }
+
     /// Its derivative with respect to the variable in `[-1, 1]`.
     pub fn derivative(&self) -> Polynomial {
         Polynomial { value: self.slope, slope: differentiated(&self.slope) }

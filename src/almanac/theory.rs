@@ -62,7 +62,7 @@ impl Theory {
                 if stars.is_none() {
                     stars = Some(observation.stars()?);
                 }
-                let dir = stars.as_ref().map(|stars| stars.horizon(star));
+                let dir = stars.as_ref().map(|stars| stars.horizon(star.as_ref()));
                 Ok(FromPlace { dir: dir.expect("was made"), distance_km: f64::INFINITY })
             }
         };
@@ -78,9 +78,10 @@ impl Theory {
         let mut observation = Observation::at(&self.ephemeris, instant, &self.pole, self.tolerance);
         let observer = *observation.observer();
         let axes = observer.orientation;
+        let ecliptic_from_true =
+            axes.ecliptic_from_mean * axes.mean_from_icrs * observer.true_from_icrs.inverse();
         let of_date = |equatorial: Dir<TrueOfDate>, distance_km: f64| {
-            let mean = axes.true_from_mean.inverse() * equatorial;
-            let ecliptic = axes.ecliptic_from_mean * mean;
+            let ecliptic = ecliptic_from_true * equatorial;
             let longitude = ecliptic.longitude() + axes.nutation.longitude;
             FromEarth { equatorial, ecliptic, longitude, distance_km }
         };
@@ -92,7 +93,7 @@ impl Theory {
                     Ok(of_date(place.geocentric, place.geocentric_distance_km))
                 }
                 Target::Star(star) => {
-                    let dir = observer.true_from_icrs * observation.stars()?.icrs(star);
+                    let dir = observer.true_from_icrs * observation.stars()?.icrs(star.as_ref());
                     Ok(of_date(dir, f64::INFINITY))
                 }
             })

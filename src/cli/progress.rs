@@ -19,6 +19,18 @@ impl Progress {
         Progress { bar, times: Vec::new() }
     }
 
+    /// A line about work that is counted in `what`, such as bytes.
+    pub fn counting(quiet: bool, total: u64, what: &'static str) -> Progress {
+        let progress = Progress::new(quiet, total);
+        progress.bar.set_message(what);
+        progress
+    }
+
+    /// So much more is done.
+    pub fn advance(&self, count: u64) {
+        self.bar.inc(count);
+    }
+
     /// Does one step.
     pub fn step<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
         self.bar.set_message(name);

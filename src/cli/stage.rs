@@ -60,7 +60,7 @@ pub fn night(
     air: &Atmosphere,
     catalogs: &Catalogs,
 ) -> Result<Night, CliError> {
-    let ephemeris = Ephemeris::load(catalogs)?;
+    let ephemeris = Ephemeris::load(catalogs, tolerance)?;
     let sky = SkyState::at(&ephemeris, instant, place, tolerance)?;
     Ok(Night::of(sky, catalogs.stars()?, air))
 }

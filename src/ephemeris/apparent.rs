@@ -6,21 +6,19 @@
 //! velocity, the parallax in the origin.
 //!
 //! *Omitted.* The Sun's potential in the aberration and the delay of light by gravity (below
-//! 0.000001"), deflection by Jupiter (0.016" at its limb), the motion of the Sun about the
-//! barycentre (0.011" of aberration, see [`Ephemeris::earth`]), polar motion (0.6" at most),
-//! air.
+//! 0.000001"), deflection by Jupiter (0.016" at its limb), polar motion (0.6" at most), air; and by
+//! the analytic tiers the motion of the Sun about the barycentre (0.011" of aberration).
 
 use glam::DVec3;
 
 use super::body::Body;
 use super::orientation::Orientation;
-use super::position::EarthState;
-use super::tables::Ephemeris;
-use super::tier::{EphemerisError, Tier};
+use super::tables::{EarthState, Ephemeris};
+use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
 use crate::time::{Instant, JulianDate, Tdb};
-use crate::units::{DAY_S, LIGHT_SPEED_KM_S};
+use crate::units::LIGHT_SPEED_KM_S;
 
 /// Rotation of the Earth, radians per second (IERS Conventions 2010, table 1.2).
 const EARTH_ROTATION_RAD_S: f64 = 7.292_115e-5;
@@ -42,8 +40,16 @@ pub struct Observer {
 }
 
 impl Observer {
-    pub fn at(instant: &Instant, place: &Place) -> Observer {
-        let orientation = Orientation::at(instant);
+    /// Axes within `tolerance`, if any form of nutation is as good.
+    pub fn at(
+        ephemeris: &Ephemeris,
+        instant: &Instant,
+        place: &Place,
+        tolerance: Tolerance,
+    ) -> Observer {
+        // Half is left to the body.
+        let nutation = ephemeris.nutation(tolerance / 2.0, instant.tt);
+        let orientation = Orientation::at(instant, &nutation);
         let itrs_from_icrs = orientation.itrs_from_icrs();
         let icrs_from_itrs = itrs_from_icrs.inverse();
         let axis: Dir<Itrs> = Dir::from_vector(DVec3::Z);
@@ -53,7 +59,7 @@ impl Observer {
         Observer {
             tdb: instant.tdb,
             orientation,
-            true_from_icrs: orientation.true_from_icrs(),
+            true_from_icrs: orientation.true_from_icrs,
             horizon_from_icrs: place.horizon_from_itrs() * itrs_from_icrs,
             position: icrs_from_itrs * itrs,
             velocity_km_s: (icrs_from_itrs * velocity).km(),
@@ -90,8 +96,7 @@ impl ApparentPlace {
         observer: &Observer,
         earth: &EarthState,
     ) -> Result<ApparentPlace, EphemerisError> {
-        let now = ephemeris.geometric(body, observer.tdb, tier)?;
-        let path = LightPath::to(earth.position, body, tier, ephemeris, observer.tdb, now);
+        let path = LightPath::to(earth.position, body, tier, ephemeris, observer.tdb)?;
         let from_earth = path.left_at(path.light_time_s) - earth.position;
         // The observer is up to 21 ms of light closer or farther: the body moves on for that time.
         let topocentric_light_time_s =
@@ -136,18 +141,17 @@ struct LightPath {
 }
 
 impl LightPath {
-    /// `now` is the body at the time of arrival.
+    /// `tdb` is the time of arrival.
     fn to(
         earth: Pos<Icrs>,
         body: Body,
         tier: Tier,
         ephemeris: &Ephemeris,
         tdb: JulianDate<Tdb>,
-        now: Pos<Icrs>,
-    ) -> LightPath {
+    ) -> Result<LightPath, EphemerisError> {
         let light_time_s = |from: Pos<Icrs>| (from - earth).distance_km() / LIGHT_SPEED_KM_S;
-        let estimate_s = light_time_s(now);
-        let retarded = ephemeris.unchecked(body, tdb.plus_days(-estimate_s / DAY_S), tier);
+        let (now, retarded, estimate_s) =
+            ephemeris.now_and_before(body, tdb, tier, light_time_s)?;
         let velocity_km_s = (now - retarded) * estimate_s.recip();
         let mut path = LightPath { retarded, velocity_km_s, estimate_s, light_time_s: estimate_s };
         // Each round gains a factor of 10^4, the ratio of light to planets. The estimate is wrong by
@@ -155,7 +159,7 @@ impl LightPath {
         for _ in 0..2 {
             path.light_time_s = light_time_s(path.left_at(path.light_time_s));
         }
-        path
+        Ok(path)
     }
 
     /// Where the body was so many seconds before the light arrives, near the estimate.

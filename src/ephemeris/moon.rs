@@ -19,7 +19,7 @@ use crate::time::{JulianDate, Tdb};
 use crate::units::Angle;
 
 /// Mass of the Earth over mass of the Moon (DE440: Park et al. 2021, AJ 161, 105).
-pub const EARTH_MOON_MASS_RATIO: f64 = 81.300_567_8;
+pub const EARTH_MOON_MASS_RATIO: f64 = 81.300_568_22;
 
 /// Mean distance in the theory, metres.
 const MEAN_DISTANCE_M: f64 = 385_000_560.0;

@@ -2,9 +2,8 @@
 
 use super::apparent::{ApparentPlace, Observer};
 use super::body::Body;
-use super::position::EarthState;
 use super::stars::StarReduction;
-use super::tables::Ephemeris;
+use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::place::Place;
 use crate::time::Instant;
@@ -38,7 +37,7 @@ impl<'a> Observation<'a> {
         place: &Place,
         tolerance: Tolerance,
     ) -> Observation<'a> {
-        let observer = Observer::at(instant, place);
+        let observer = Observer::at(ephemeris, instant, place, tolerance);
         Observation { ephemeris, tolerance, observer, earths: Vec::new() }
     }
 

@@ -146,6 +146,11 @@ impl Table {
         self.channels.iter().find(|channel| channel.id() == id)
     }
 
+    /// The channels themselves, in the order of the file.
+    pub fn into_channels(self) -> Vec<Channel> {
+        self.channels
+    }
+
     /// All channels, in the order of the file.
     pub fn channels(&self) -> impl Iterator<Item = &Channel> {
         self.channels.iter()
@@ -196,6 +201,15 @@ impl Channel {
     pub fn value_and_rate(&self, tdb: JulianDate<Tdb>, depth: Depth) -> (DVec3, DVec3) {
         let layers = depth.layers().min(self.loaded);
         self.folded(layers).value_and_rate(tdb, |segment| self.unfold(segment, layers))
+    }
+
+    /// The value straight from the bits and the reference: slow, and what folding is measured by.
+    pub fn unfolded_value(&self, tdb: JulianDate<Tdb>, depth: Depth) -> DVec3 {
+        let recipe = self.recipe();
+        let days = tdb - JulianDate::from_jd(recipe.start_jd);
+        let segment = ((days / recipe.segment_days) as usize).min(recipe.segments as usize - 1);
+        let x = 2.0 * (days / recipe.segment_days - segment as f64) - 1.0;
+        self.unfold(segment, depth.layers().min(self.loaded))(x)
     }
 
     #[inline]
@@ -257,6 +271,12 @@ impl Channel {
 fn moment(recipe: &Recipe, segment: usize, x: f64) -> JulianDate<Tdb> {
     let begin = segment as f64 * recipe.segment_days;
     JulianDate::from_parts(recipe.start_jd + begin, 0.5 * (1.0 + x) * recipe.segment_days)
+}
+
+impl fmt::Debug for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Channel({:?})", self.id())
+    }
 }
 
 impl fmt::Debug for Table {

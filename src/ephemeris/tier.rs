@@ -11,8 +11,9 @@ use std::ops::RangeInclusive;
 use thiserror::Error;
 
 use super::body::Body;
-use crate::time::{JulianDate, Tdb};
-use crate::units::Angle;
+use super::resampled::Depth;
+use crate::time::{J2000, JulianDate, Tdb};
+use crate::units::{Angle, JULIAN_CENTURY_DAYS};
 
 /// How far off a direction may be.
 pub type Tolerance = Angle;
@@ -20,8 +21,12 @@ pub type Tolerance = Angle;
 /// A theory of motion, cheapest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Tier {
-    /// The formulas of the paper, Sun and Moon only: arcminutes. `benches/positions.rs` prints what a
-    /// place costs by each tier.
+    /// JPL's DE440, resampled; read to a depth.
+    De440(Depth),
+    /// JPL's DE431, resampled to half an arcsecond: three millennia both ways.
+    De431,
+    /// The formulas of the paper, Sun and Moon only: arcminutes. `benches/ephemeris.rs` prints what
+    /// a place costs by each tier.
     Paper,
     /// Truncated ELP-2000/82 for the Moon, Simon et al. 1994 for the planets, Standish for Pluto:
     /// arcseconds.
@@ -32,14 +37,21 @@ pub enum Tier {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EphemerisError {
     #[error(
-        "{body}: the year {year:.1} is outside {low} to {high}, where the {tier} tier holds; choose \
+        "{body}: the year {year:.1} is outside {low:.0} to {high:.0}, where the {tier} tier holds; choose \
          a date within"
     )]
     Date { body: Body, tier: Tier, year: f64, low: f64, high: f64 },
     #[error("{body}: the {tier} tier has no theory of it; use the series tier")]
     NoTheory { body: Body, tier: Tier },
+    #[error("{body}: the table of the {tier} tier was not read, or not to that depth; load it")]
+    NotLoaded { body: Body, tier: Tier },
 }
 
+/// Julian years that the table of DE440 holds.
+/// 1550-01-01 to 2650-01-24; light that arrives then left within the day before.
+const DE440_YEARS: RangeInclusive<f64> = 1550.008..=2650.05;
+/// Julian years that the table of DE431 holds.
+const DE431_YEARS: RangeInclusive<f64> = -3000.0..=3001.0;
 /// Julian years in which the formulas of the paper stay within three degrees.
 const PAPER_YEARS: RangeInclusive<f64> = -1000.0..=4001.0;
 /// Julian years in which the series were measured; every theory stays within five degrees.
@@ -52,7 +64,14 @@ const ERA_STARTS: [f64; 10] =
 /// Arcseconds in each era. Where a tier is not asked there is no bound.
 type Eras = [f64; 11];
 
+const JULIAN_YEAR_DAYS: f64 = JULIAN_CENTURY_DAYS / 100.0;
+
 const NONE: f64 = f64::INFINITY;
+
+/// DE440 resampled, whole span: arcseconds by depth.
+const DE440: [f64; 3] = [0.1, 0.01, 0.001];
+const DE431: Eras = [NONE, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+const DE431_MOON: Eras = [NONE, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0];
 
 const PAPER_SUN: Eras = [NONE, NONE, NONE, 1150.0, 520.0, 150.0, 55.0, 65.0, 125.0, 230.0, 680.0];
 const PAPER_MOON: Eras =
@@ -74,6 +93,10 @@ const PLUTO: Eras =
 impl fmt::Display for Tier {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
+            Tier::De440(Depth::Tenth) => "DE440 to 0.1\"",
+            Tier::De440(Depth::Hundredth) => "DE440 to 0.01\"",
+            Tier::De440(Depth::Thousandth) => "DE440 to 0.001\"",
+            Tier::De431 => "DE431",
             Tier::Paper => "paper",
             Tier::Series => "series",
         })
@@ -82,16 +105,25 @@ impl fmt::Display for Tier {
 
 /// Julian epoch: the year and its fraction.
 fn julian_year(tdb: JulianDate<Tdb>) -> f64 {
-    2000.0 + tdb.centuries_since_j2000() * 100.0
+    2000.0 + tdb.days_since_j2000() / JULIAN_YEAR_DAYS
 }
 
 impl Tier {
     /// All tiers, cheapest first.
-    pub const ALL: [Tier; 2] = [Tier::Paper, Tier::Series];
+    pub const ALL: [Tier; 6] = [
+        Tier::De440(Depth::Tenth),
+        Tier::De440(Depth::Hundredth),
+        Tier::De440(Depth::Thousandth),
+        Tier::De431,
+        Tier::Paper,
+        Tier::Series,
+    ];
 
     /// Julian years in which the tier may be asked.
     pub const fn years(self) -> RangeInclusive<f64> {
         match self {
+            Tier::De440(_) => DE440_YEARS,
+            Tier::De431 => DE431_YEARS,
             Tier::Paper => PAPER_YEARS,
             Tier::Series => SERIES_YEARS,
         }
@@ -101,7 +133,7 @@ impl Tier {
     pub const fn knows(self, body: Body) -> bool {
         match self {
             Tier::Paper => matches!(body, Body::Sun | Body::Moon),
-            Tier::Series => true,
+            Tier::De440(_) | Tier::De431 | Tier::Series => true,
         }
     }
 
@@ -112,8 +144,24 @@ impl Tier {
     /// serve the body or the date.
     pub fn bound(self, body: Body, tdb: JulianDate<Tdb>) -> Option<Angle> {
         self.check(body, tdb).ok()?;
+        if let Tier::De440(depth) = self {
+            return Some(Angle::from_arcsec(DE440[depth as usize]));
+        }
         let era = ERA_STARTS.iter().filter(|&&start| julian_year(tdb) >= start).count();
         Some(Angle::from_arcsec(self.eras(body)[era]))
+    }
+
+    /// How deep the table of DE440 must be read for a tolerance, if that can be kept at all.
+    pub(super) fn depth_for(tolerance: Tolerance) -> Depth {
+        let within = |depth: &Depth| Angle::from_arcsec(DE440[*depth as usize]) <= tolerance;
+        Depth::ALL.into_iter().find(within).unwrap_or(Depth::Thousandth)
+    }
+
+    /// The years in which the tier may be asked, as Julian dates.
+    pub(super) fn days_jd(self) -> RangeInclusive<f64> {
+        let (first, last) = self.years().into_inner();
+        let jd = |year: f64| J2000 + (year - 2000.0) * JULIAN_YEAR_DAYS;
+        jd(first)..=jd(last)
     }
 
     /// Refuses what the tier does not serve, and says why.
@@ -132,6 +180,9 @@ impl Tier {
 
     const fn eras(self, body: Body) -> &'static Eras {
         match (self, body) {
+            (Tier::De440(_), _) => &[NONE; 11],
+            (Tier::De431, Body::Moon) => &DE431_MOON,
+            (Tier::De431, _) => &DE431,
             (Tier::Paper, Body::Sun) => &PAPER_SUN,
             (Tier::Paper, Body::Moon) => &PAPER_MOON,
             (Tier::Paper, _) => &[NONE; 11],

@@ -65,7 +65,7 @@ pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed
     let catalogs = Catalogs::locate(None)?;
     let setting = scene.setting()?;
     let sky = SkyState::at(
-        &Ephemeris::load(&catalogs)?,
+        &Ephemeris::load(&catalogs, setting.tolerance)?,
         &setting.instant,
         &setting.place,
         setting.tolerance,

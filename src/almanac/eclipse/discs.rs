@@ -1,6 +1,7 @@
 //! Two discs in the sky: how much of the Sun the Moon covers.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use super::radii::{MOON_INNER_KM, MOON_OUTER_KM, SUN_KM};
 use crate::frame::{Pos, TrueOfDate};
@@ -14,6 +15,16 @@ pub enum Cover {
     Annular,
     /// The Sun stands within the Moon.
     Total,
+}
+
+impl fmt::Display for Cover {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Cover::Partial => "partial",
+            Cover::Annular => "annular",
+            Cover::Total => "total",
+        })
+    }
 }
 
 /// Sun and Moon as one observer sees them, radians.
@@ -66,10 +77,17 @@ impl Discs {
         self.moon() / self.sun
     }
 
-    /// Part of the diameter of the Sun that is covered, on the line through both centres; above 1 in
-    /// a total eclipse, where it counts the part of the Moon that sticks out; negative without eclipse.
+    /// Part of the diameter of the Sun that is covered, on the line through both centres; above 1
+    /// in a total eclipse, where it counts the part of the Moon that sticks out; negative without
+    /// eclipse.
     pub fn magnitude(&self) -> f64 {
         (self.sun + self.moon() - self.separation) / (2.0 * self.sun)
+    }
+
+    /// The magnitude with one radius of the Moon through all phases, the outer one: it has no
+    /// step, so that the maximum can be sought.
+    pub fn smooth_magnitude(&self) -> f64 {
+        -self.outer_gap() / (2.0 * self.sun)
     }
 
     /// Part of the disc of the Sun that is covered, 0 to 1.

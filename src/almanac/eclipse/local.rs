@@ -17,6 +17,7 @@ const LOOK_S: f64 = 300.0;
 /// A moment of an eclipse at a place, and where the eclipsed body stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalMoment {
+    /// On every clock.
     pub instant: Instant,
     /// Of the centre, topocentric, without air.
     pub altitude: Angle,

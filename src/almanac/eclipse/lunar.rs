@@ -1,11 +1,12 @@
 //! Eclipses of the Moon.
 //!
-//! *Theory.* The shadow of the Earth is a circle about the point opposite to the apparent Sun, with
-//! the radii of Danjon as Espenak & Meeus write them (NASA/TP-2009-214172, eq. 1-5 and 1-6):
-//! `1.01 P + p + s` for the penumbra and `1.01 P + p - s` for the umbra, P and p the equatorial
-//! horizontal parallaxes of Moon and Sun, s the semidiameter of the Sun. The eclipse is greatest when
-//! the centre of the Moon passes nearest to the axis of the shadow, in kilometres. The
-//! angle is smallest up to 10 s earlier or later, because the Moon comes closer or goes.
+//! *Theory.* The shadow of the Earth is a circle about the point opposite to the apparent Sun,
+//! with the radii of Danjon as Espenak & Meeus write them (NASA/TP-2009-214172, on the enlargement
+//! of Earth's shadows): `1.01 P + p + s` for the penumbra and `1.01 P + p - s` for the umbra, P
+//! and p the equatorial horizontal parallaxes of Moon and Sun, s the semidiameter of the Sun. The
+//! eclipse is greatest when the centre of the Moon passes nearest to the axis of the shadow, in
+//! kilometres. The angle is smallest up to 10 s earlier or later, because the Moon comes closer or
+//! goes.
 
 use std::fmt;
 
@@ -44,15 +45,17 @@ pub struct LunarContacts<T> {
 /// An eclipse of the Moon.
 #[derive(Debug, Clone)]
 pub struct LunarEclipse {
+    /// The deepest phase.
     pub kind: LunarKind,
     /// When the centre of the Moon is nearest to the axis of the shadow.
     pub greatest: Instant,
+    /// When the Moon touches the rims of the shadow.
     pub contacts: LunarContacts<Instant>,
     /// Least distance of the Moon from the axis, equatorial radii of the Earth; positive where it
     /// passes north of it.
     pub gamma: f64,
-    /// Part of the diameter of the Moon within the umbra; above 1 in a total eclipse, negative without
-    /// umbra.
+    /// Part of the diameter of the Moon within the umbra; above 1 in a total eclipse, negative
+    /// without umbra.
     pub umbral_magnitude: f64,
     /// Part of the diameter of the Moon within the penumbra.
     pub penumbral_magnitude: f64,
@@ -60,19 +63,21 @@ pub struct LunarEclipse {
     pub saros: i32,
     /// Brown's lunation number less 953: the new moon before, counted from that of 2000-01-06.
     pub lunation: i32,
-    /// Bound of the error of the times, seconds of TT. What is not known of the rotation of the Earth
-    /// (see [`crate::time::delta_t`]) comes on top for clocks and places.
+    /// Bound of the error of the times, seconds of TT. What is not known of the rotation of the
+    /// Earth (see [`crate::time::delta_t`]) comes on top for clocks and places.
     pub uncertainty_s: f64,
     track: Track,
     contacts_s: LunarContacts<f64>,
     greatest_s: f64,
 }
 
-/// An eclipse of the Moon at one place. Whoever sees the Moon sees the same eclipse; the places differ
-/// in when the Moon is up.
+/// An eclipse of the Moon at one place. Whoever sees the Moon sees the same eclipse; the places
+/// differ in when the Moon is up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalLunarEclipse {
+    /// The greatest eclipse, seen or not.
     pub greatest: LocalMoment,
+    /// The contacts, seen or not.
     pub contacts: LunarContacts<LocalMoment>,
     /// From when to when the Moon is up between P1 and P4: empty where nothing is seen.
     pub visible: Vec<[LocalMoment; 2]>,

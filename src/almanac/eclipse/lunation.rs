@@ -1,12 +1,12 @@
-//! New and full moons: when about they come, which of them can bring an eclipse, and in which Saros.
+//! New and full moons: when about they come, which of them can bring an eclipse, and in which
+//! Saros.
 //!
 //! *Theory.* Mean lunations and the largest periodic terms of the greatest eclipse: Meeus 1998,
 //! *Astronomical Algorithms*, 2nd ed., eq. 49.1 to 49.7 and 54.1. No eclipse comes where the Moon
 //! stands farther from its node than `|sin F| = 0.36` (p. 380).
 //!
-//! *Accuracy.* Estimates are within six minutes of the greatest eclipse from -1500 on, within
-//! fourteen from -4000. Of 9520 eclipses of the Swiss Ephemeris, every other pair of centuries from
-//! -3990 to 3710, none lies beyond 0.352; where it knows the Saros (-3000 to 3000) ours is the same.
+//! *Accuracy.* Estimates are within a quarter of an hour of the greatest eclipse from -4000 to
+//! +4000. The Saros is that of the Swiss Ephemeris, wherever that knows it from -3000 to 3000.
 
 use crate::time::{JulianDate, Tt};
 use crate::units::Angle;
@@ -106,11 +106,12 @@ impl Lunation {
 
     /// The number of the Saros series, as van den Bergh counted them.
     ///
-    /// All eclipses are inexes (358 lunations) and saroses (223 lunations) apart, and an inex leads to
-    /// the series with the next number (van den Bergh 1955, *Periodicity and Variation of Solar (and
-    /// Lunar) Eclipses*). So `358 s = number + constant` modulo 223, and since `38 * 358 = 1` modulo
-    /// 223, `s = 38 number + constant`. Which of the numbers 223 apart is meant the epoch says: some
-    /// forty series run at a time, and their middle moves on by one in 31.6 years.
+    /// All eclipses are inexes (358 lunations) and saroses (223 lunations) apart, and an inex
+    /// leads to the series with the next number (van den Bergh 1955, *Periodicity and Variation of
+    /// Solar (and Lunar) Eclipses*). So `358 s = number + constant` modulo 223, and since `38 *
+    /// 358 = 1` modulo 223, `s = 38 number + constant`. Which of the numbers 223 apart is meant
+    /// the epoch says: some forty series run at a time, and their middle moves on by one in 31.6
+    /// years.
     pub fn saros(self) -> i32 {
         // The series of the lunation with number 0.
         let constant = match self.phase {

@@ -19,8 +19,8 @@ const MARGIN_DAYS: f64 = 0.5;
 
 /// The eclipses of the Moon that are greatest from `from` on and before `to`, in order.
 ///
-/// Directions of Sun and Moon are within `tolerance`, or as good as they are known; the Moon moves 1"
-/// in 2 s. After an error there is no further eclipse.
+/// Directions of Sun and Moon are within `tolerance`, or as good as they are known; the Moon moves
+/// 1" in 2 s. After an error there is no further eclipse.
 pub fn lunar_eclipses(
     ephemeris: &Ephemeris,
     from: Instant,

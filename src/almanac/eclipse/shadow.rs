@@ -1,12 +1,12 @@
 //! The shadow that the Moon casts, and where it meets the Earth.
 //!
-//! *Theory.* Bessel's: the line from the Sun through the Moon is the axis of two cones, the penumbra
-//! and the umbra (Explanatory Supplement 2013, section 11.3). Vectors are used directly, in place of
-//! his elements x, y, d, l1, l2 in a plane through the centre of the Earth; the Earth is the
-//! ellipsoid WGS84, not a sphere stretched afterwards.
+//! *Theory.* Bessel's: the line from the Sun through the Moon is the axis of two cones, the
+//! penumbra and the umbra (Explanatory Supplement 2013, section 11.3). Vectors are used directly,
+//! in place of his elements x, y, d, l1, l2 in a plane through the centre of the Earth; the Earth
+//! is the ellipsoid WGS84, not a sphere stretched afterwards.
 //!
-//! *Omitted.* Where a shadow touches the rim of the Earth the cone is taken for a cylinder: 70 m, 0.2 s
-//! of the first and last contact of a solar eclipse with the Earth. Air and mountains.
+//! *Omitted.* Where a shadow touches the rim of the Earth the cone is taken for a cylinder: 70 m,
+//! 0.2 s of the first and last contact of a solar eclipse with the Earth. Air and mountains.
 
 use glam::DVec3;
 
@@ -71,14 +71,15 @@ impl MoonShadow {
         Pos::from_km(self.moon.reject_from_normalized(self.to_sun))
     }
 
-    /// The distance of [`MoonShadow::foot`] in equatorial radii of the Earth, positive in the north.
+    /// The distance of [`MoonShadow::foot`] in equatorial radii of the Earth, positive in the
+    /// north.
     pub fn gamma(&self) -> f64 {
         let foot = self.foot().km();
         (foot.length() / EARTH_EQUATORIAL_RADIUS_KM).copysign(foot.z)
     }
 
     /// The direction to the Sun along the axis.
-    pub fn to_sun(&self) -> Dir<TrueOfDate> {
+    pub fn sunward(&self) -> Dir<TrueOfDate> {
         Dir::from_vector(self.to_sun)
     }
 
@@ -180,10 +181,10 @@ mod tests {
             let ground = shadow.ground().unwrap();
             assert!(height(ground).abs() < 1e-6);
             assert!(
-                (ground.km() - offset).reject_from_normalized(shadow.to_sun().vector()).length()
+                (ground.km() - offset).reject_from_normalized(shadow.sunward().vector()).length()
                     < 1e-4
             );
-            assert!(ground.km().dot(shadow.to_sun().vector()) > 0.0);
+            assert!(ground.km().dot(shadow.sunward().vector()) > 0.0);
             assert!(shadow.rim().clearance_km < 0.0);
         }
         assert!(shadow(DVec3::Y * 6400.0).ground().is_none());
@@ -196,12 +197,12 @@ mod tests {
             let rim = shadow.rim();
             assert!(height(rim.point).abs() < 1e-6);
             let from_axis =
-                |p: DVec3| (p - offset).reject_from_normalized(shadow.to_sun().vector()).length();
+                |p: DVec3| (p - offset).reject_from_normalized(shadow.sunward().vector()).length();
             assert!((from_axis(rim.point.km()) - rim.clearance_km.abs()).abs() < 0.01);
             let outside = rim.clearance_km > 0.0;
             // Around the rim: points with a normal at right angles to the axis.
             for degree in 0..360 {
-                let across = shadow.to_sun().vector().cross(DVec3::Y);
+                let across = shadow.sunward().vector().cross(DVec3::Y);
                 let (sin, cos) = f64::from(degree).to_radians().sin_cos();
                 let normal = DVec3::Y * cos + across * sin;
                 let (a, b) = (1.0f64, (1.0 - WGS84_FLATTENING).powi(2));
@@ -219,7 +220,7 @@ mod tests {
         let shadow = shadow(DVec3::ZERO);
         let distance_km = AU_KM - 380_000.0;
         let tip_km = MOON_INNER_KM * distance_km / (SUN_KM - MOON_INNER_KM);
-        let point = Pos::from_km(shadow.to_sun().vector() * (380_000.0 - tip_km));
+        let point = Pos::from_km(shadow.sunward().vector() * (380_000.0 - tip_km));
         assert!(shadow.umbra_km(point).abs() < 1e-6);
         let sun_km = (AU_KM - point.distance_km()).abs();
         assert!((MOON_INNER_KM / tip_km - SUN_KM / sun_km).abs() < 1e-9);

@@ -1,10 +1,10 @@
 //! Eclipses of the Sun: what happens on the Earth as a whole.
 //!
-//! *Theory.* See [`super::shadow`]. The eclipse is greatest when the axis of the shadow passes nearest
-//! to the centre of the Earth. The place of the greatest eclipse is where the axis meets the ground,
-//! or, if it does not, the point of the Earth nearest to it, where the Sun stands on the horizon.
-//! That point is sought on the ellipsoid itself; the usual stretched sphere puts it some 2 km
-//! elsewhere, the Swiss Ephemeris up to 0.09 degree.
+//! *Theory.* See [`super::shadow`]. The eclipse is greatest when the axis of the shadow passes
+//! nearest to the centre of the Earth. The place of the greatest eclipse is where the axis meets
+//! the ground, or, if it does not, the point of the Earth nearest to it, where the Sun stands on
+//! the horizon. That point is sought on the ellipsoid itself; the usual stretched sphere puts it
+//! some 2 km elsewhere, the Swiss Ephemeris up to 0.09 degree.
 
 use std::fmt;
 
@@ -51,9 +51,11 @@ pub struct SolarContacts {
 /// An eclipse of the Sun.
 #[derive(Debug, Clone)]
 pub struct SolarEclipse {
+    /// What the best place sees.
     pub kind: SolarKind,
     /// When the axis of the shadow is nearest to the centre of the Earth.
     pub greatest: Instant,
+    /// When shadows touch the Earth.
     pub contacts: SolarContacts,
     /// Least distance of the axis from the centre of the Earth, equatorial radii; positive where it
     /// passes north of it.
@@ -70,15 +72,15 @@ pub struct SolarEclipse {
     pub diameter_ratio: f64,
     /// Duration of the total or annular phase at the place of the greatest eclipse, seconds.
     pub central_duration_s: Option<f64>,
-    /// Width of the path of the total or annular phase there, kilometres across its way; `None` where
-    /// a part of the umbra misses the Earth.
+    /// Width of the path of the total or annular phase there, kilometres across its way; `None`
+    /// where a part of the umbra misses the Earth.
     pub path_width_km: Option<f64>,
     /// Number of the Saros series.
     pub saros: i32,
     /// Brown's lunation number less 953: counted from the new moon of 2000-01-06.
     pub lunation: i32,
-    /// Bound of the error of the times, seconds of TT. What is not known of the rotation of the Earth
-    /// (see [`crate::time::delta_t`]) comes on top for clocks and places.
+    /// Bound of the error of the times, seconds of TT. What is not known of the rotation of the
+    /// Earth (see [`crate::time::delta_t`]) comes on top for clocks and places.
     pub uncertainty_s: f64,
     track: Track,
 }
@@ -95,7 +97,8 @@ impl fmt::Display for SolarKind {
 }
 
 impl SolarEclipse {
-    /// The eclipse of a new moon whose axis comes nearest to the Earth at `greatest_s`, if there is one.
+    /// The eclipse of a new moon whose axis comes nearest to the Earth at `greatest_s`, if there
+    /// is one.
     pub(super) fn of(
         lunation: Lunation,
         track: Track,
@@ -192,7 +195,7 @@ fn place_of(position: Pos<Itrs>) -> Place {
     Place {
         name: None,
         latitude: Angle::from_rad(p.z.atan2(p.x.hypot(p.y) * polar)),
-        longitude: Angle::from_rad(p.y.atan2(p.x)),
+        longitude: Angle::from_rad(p.y.atan2(p.x)).signed(),
         height_m: 0.0,
         time_zone: None,
     }
@@ -218,7 +221,7 @@ fn path_width_km(track: &Track, greatest_s: f64) -> Option<f64> {
     }
     let place = place_of(positions.itrs_from_true * ground);
     let horizon_from_itrs = place.horizon_from_itrs();
-    let sun = horizon_from_itrs * positions.itrs_from_true * shadow.to_sun();
+    let sun = horizon_from_itrs * positions.itrs_from_true * shadow.sunward();
     let across = (horizon_from_itrs * motion).km().cross(DVec3::Z).normalize();
     let towards_sun = (sun.vector() * DVec3::new(1.0, 1.0, 0.0)).normalize_or(DVec3::X);
     let (sine, along) = (sun.vector().z, across.dot(towards_sun));

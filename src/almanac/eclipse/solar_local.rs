@@ -1,9 +1,11 @@
 //! Eclipses of the Sun: what one place sees.
 //!
-//! *Theory.* The discs of Sun and Moon as they stand for an observer on the ellipsoid, from apparent
-//! geocentric places less the place of the observer: no elements, no fundamental plane. The
-//! maximum is when the largest part of the diameter of the Sun is covered. Centres are nearest some
-//! seconds earlier or later, because the Moon grows towards noon.
+//! *Theory.* The discs of Sun and Moon as they stand for an observer on the ellipsoid, from
+//! apparent geocentric places less the place of the observer: no elements, no fundamental plane.
+//! The maximum is when the largest part of the diameter of the Sun is covered. Centres are nearest
+//! some seconds earlier or later, because the Moon grows towards noon.
+
+use glam::DVec3;
 
 use super::discs::{Cover, Discs};
 use super::local::{LocalMoment, Site};
@@ -12,11 +14,11 @@ use super::track::{HALF_WIDTH_S, Track};
 use crate::place::Place;
 use crate::time::TimeError;
 use crate::units::Angle;
-use glam::DVec3;
 
 /// A moment at which the rims of Sun and Moon touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolarContact {
+    /// When, and where the Sun stands.
     pub moment: LocalMoment,
     /// Where on the rim of the Sun: from celestial north through east.
     pub position_angle: Angle,
@@ -27,6 +29,7 @@ pub struct SolarContact {
 /// A moment of an eclipse of the Sun, and how much is covered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolarPhase {
+    /// When, and where the Sun stands.
     pub moment: LocalMoment,
     /// Part of the diameter of the Sun that is covered, on the line through both centres.
     pub magnitude: f64,
@@ -81,7 +84,7 @@ impl SolarView<'_> {
     pub fn eclipse(&self) -> Result<Option<LocalSolarEclipse>, TimeError> {
         // The slope is asked a few seconds outside.
         let end_s = HALF_WIDTH_S - 60.0;
-        let covered = |t: f64| self.discs(t).magnitude();
+        let covered = |t: f64| self.discs(t).smooth_magnitude();
         let Some(maximum_s) = minimum(|t| -covered(t), -end_s, end_s) else { return Ok(None) };
         let (Some(kind), Some(partial)) =
             (self.discs(maximum_s).cover(), self.span(Discs::outer_gap, maximum_s))

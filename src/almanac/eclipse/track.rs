@@ -1,9 +1,9 @@
 //! Sun and Moon over the hours of one eclipse, as polynomials.
 //!
-//! An eclipse asks a hundred times where Sun and Moon stand, within eight hours. The theories are asked
-//! six times; between, Chebyshev polynomials of the rectangular coordinates are taken. In half the
-//! span the Moon moves by 0.04 radian: the sixth power of that, times its distance, over `2^5 6!`
-//! is 0.1 mm.
+//! An eclipse asks a hundred times where Sun and Moon stand, within eight hours. The theories are
+//! asked six times; between, Chebyshev polynomials of the rectangular coordinates are taken. In
+//! half the span the Moon moves by 0.04 radian: the sixth power of that, times its distance, over
+//! `2^5 6!` is 0.1 mm.
 
 use std::f64::consts::{PI, TAU};
 
@@ -72,7 +72,8 @@ impl Track {
             let syzygy = Syzygy::at(ephemeris, &instant, tolerance)?;
             (sun[i], moon[i]) = (syzygy.sun.km(), syzygy.moon.km());
             error_bound = error_bound.max(syzygy.error_bound);
-            // One node gives the sidereal time: it goes evenly to 0.02" (of nutation) in these hours.
+            // One node gives the sidereal time: it goes evenly to 0.02" (of nutation) in these
+            // hours.
             if i == NODES / 2 {
                 sidereal_time = syzygy.sidereal_time - turned(seconds);
             }
@@ -107,7 +108,8 @@ impl Track {
         Instant::from_tt(self.tt(seconds))
     }
 
-    /// Bound of the error of times, seconds of TT: that of the theories, over how fast the Moon moves.
+    /// Bound of the error of times, seconds of TT: that of the theories, over how fast the Moon
+    /// moves.
     pub fn uncertainty_s(&self) -> f64 {
         self.error_bound.arcsec() / SLOWEST_ARCSEC_PER_S
     }

@@ -1,55 +1,95 @@
-//! Nutation in longitude and obliquity.
+//! Nutation in longitude and obliquity, in three forms.
+//!
+//! *Theory.* IAU 2000A (Mathews, Herring & Buffett 2002; IERS Conventions 2010, tables 5.3a and
+//! 5.3b) with the adjustments to the precession IAU 2006 (Wallace & Capitaine 2006, eq. 5). IAU 2000B
+//! (McCarthy & Luzum 2003) is the first 77 terms of it and two constants. Free core nutation (below
+//! 0.0003") cannot be predicted and is left out.
+//!
+//! *How we differ.* All forms have the full arguments of [`super::arguments`]; IAU 2000B by the
+//! letter drops their powers and would have the node 7.5 degrees off at -4000.
 
-use super::terms::{NUTATION, NutationTerm};
-use crate::ephemeris::polynomial::polynomial;
+mod forms;
+pub mod table;
+mod terms;
+
+use std::sync::LazyLock;
+
+use glam::DVec3;
+
+use super::series::{Series, Term};
 use crate::frame::{MeanOfDate, Rot, TrueOfDate, turn_axes_x, turn_axes_z};
 use crate::time::{JulianDate, Tt};
 use crate::units::Angle;
 
+pub use forms::{NutationForm, Nutations};
+
 /// Nutation with respect to the mean ecliptic and equinox of date.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nutation {
+    /// Of the true equinox from the mean one, along the ecliptic.
     pub longitude: Angle,
     pub obliquity: Angle,
-    /// Mean longitude of the ascending node of the Moon.
-    node: Angle,
+    /// Periodic part of s + XY/2, which places the celestial intermediate origin on the true
+    /// equator (IERS Conventions 2010, table 5.2d): sidereal time needs it.
+    pub locator: Angle,
 }
 
-/// Mean anomaly of the Moon, of the Sun, argument of latitude, elongation and node of the Moon:
-/// arcseconds, powers of Julian centuries. IERS Conventions 2003, eq. 5.43 (Simon et al. 1994).
-const ARGUMENTS: [[f64; 5]; 5] = [
-    [485_868.249_036, 1_717_915_923.217_8, 31.879_2, 0.051_635, -0.000_244_70],
-    [1_287_104.793_05, 129_596_581.048_1, -0.553_2, 0.000_136, -0.000_011_49],
-    [335_779.526_232, 1_739_527_262.847_8, -12.751_2, -0.001_037, 0.000_004_17],
-    [1_072_260.703_69, 1_602_961_601.209_0, -6.370_6, 0.006_593, -0.000_031_69],
-    [450_160.398_036, -6_962_890.543_1, 7.472_2, 0.007_702, -0.000_059_39],
-];
+/// How many terms of IAU 2000A make IAU 2000B.
+const IAU_2000B_TERMS: usize = 77;
+/// Stands in for the planetary terms of IAU 2000B: longitude and obliquity, arcseconds (Luzum 2001).
+const IAU_2000B_PLANETARY_ARCSEC: [f64; 2] = [-0.000_135, 0.000_388];
 
-/// Stands in for the planetary terms: longitude and obliquity, arcseconds (Luzum 2001).
-const PLANETARY_ARCSEC: [f64; 2] = [-0.000_135, 0.000_388];
+static IAU_2000B: LazyLock<Series> = LazyLock::new(|| {
+    let mut terms = published(IAU_2000B_TERMS);
+    // The planets give the locator 0.0000005".
+    terms.retain(|term| !term.is_planetary());
+    Series::new(&terms)
+});
+static IAU_2000A: LazyLock<Series> = LazyLock::new(|| Series::new(&published(usize::MAX)));
 
-const ARCSEC_PER_TURN: f64 = 1_296_000.0;
-
-/// Nutation: the 77 terms of IAU 2000B. Within 0.005" of IAU 2000A from -4000 to +4000.
-pub fn nutation(tt: JulianDate<Tt>) -> Nutation {
-    let t = tt.centuries_since_j2000();
-    let arguments =
-        ARGUMENTS.map(|c| Angle::from_arcsec(polynomial(&c, t) % ARCSEC_PER_TURN).rad());
-    let (mut longitude, mut obliquity) = (0.0, 0.0);
-    for NutationTerm(multiples, psi, epsilon) in NUTATION.iter().rev() {
-        let argument: f64 = multiples.iter().zip(arguments).map(|(&m, a)| f64::from(m) * a).sum();
-        let (sin, cos) = argument.sin_cos();
-        longitude += (psi[0] + psi[1] * t) * sin + psi[2] * cos;
-        obliquity += (epsilon[0] + epsilon[1] * t) * cos + epsilon[2] * sin;
-    }
-    Nutation {
-        longitude: Angle::from_arcsec(longitude * 1e-7 + PLANETARY_ARCSEC[0]),
-        obliquity: Angle::from_arcsec(obliquity * 1e-7 + PLANETARY_ARCSEC[1]),
-        node: Angle::from_rad(arguments[4]),
-    }
+fn published(nutation_terms: usize) -> Vec<Term> {
+    terms::read(nutation_terms).expect("the embedded series are well formed (a test reads them)")
 }
 
 impl Nutation {
+    /// All 1365 terms of IAU 2000A with the adjustments to IAU 2006.
+    pub fn iau2000a(tt: JulianDate<Tt>) -> Nutation {
+        Nutation::summed(&IAU_2000A, [0.0, 0.0], tt)
+    }
+
+    /// The 77 terms of IAU 2000B.
+    pub fn iau2000b(tt: JulianDate<Tt>) -> Nutation {
+        Nutation::summed(&IAU_2000B, IAU_2000B_PLANETARY_ARCSEC, tt)
+    }
+
+    fn summed(series: &Series, planetary_arcsec: [f64; 2], tt: JulianDate<Tt>) -> Nutation {
+        let t = tt.centuries_since_j2000();
+        let sums = series.at(t);
+        // Wallace & Capitaine 2006, eq. 5: the obliquity of IAU 2006, and the flattening of the
+        // Earth, which wears off.
+        let flattening = -2.7774e-6 * t;
+        let longitude_arcsec = sums.longitude + planetary_arcsec[0];
+        let obliquity_arcsec = sums.obliquity + planetary_arcsec[1];
+        Nutation {
+            longitude: Angle::from_arcsec(longitude_arcsec * (1.0 + 0.4697e-6 + flattening)),
+            obliquity: Angle::from_arcsec(obliquity_arcsec * (1.0 + flattening)),
+            locator: Angle::from_arcsec(sums.locator),
+        }
+    }
+
+    /// Longitude, obliquity and locator in radians, as tables hold them.
+    pub(in crate::ephemeris) fn vector_rad(self) -> DVec3 {
+        DVec3::new(self.longitude.rad(), self.obliquity.rad(), self.locator.rad())
+    }
+
+    fn from_vector_rad(vector: DVec3) -> Nutation {
+        Nutation {
+            longitude: Angle::from_rad(vector.x),
+            obliquity: Angle::from_rad(vector.y),
+            locator: Angle::from_rad(vector.z),
+        }
+    }
+
     /// True axes from mean axes.
     pub fn true_from_mean(self, mean_obliquity: Angle) -> Rot<TrueOfDate, MeanOfDate> {
         // To the ecliptic, along it, and back by the true obliquity.
@@ -58,15 +98,5 @@ impl Nutation {
                 * turn_axes_z(-self.longitude)
                 * turn_axes_x(mean_obliquity),
         )
-    }
-
-    /// Apparent less mean sidereal time.
-    ///
-    /// The two largest complementary terms are kept (IERS Conventions 2003, table 5.2e); the rest
-    /// is below 0.00002".
-    pub fn equation_of_equinoxes(self, mean_obliquity: Angle) -> Angle {
-        let complementary_arcsec =
-            0.002_640_96 * self.node.sin() + 0.000_063_52 * (self.node * 2.0).sin();
-        self.longitude * mean_obliquity.cos() + Angle::from_arcsec(complementary_arcsec)
     }
 }

@@ -24,7 +24,7 @@ type Record = [Vec<i64>; COMPONENTS];
 const SPARE_DEGREES: usize = 6;
 
 /// Sums of such numbers and of their halves are exact.
-const MAX_NUMBER: i64 = 1 << 46;
+const MAX_NUMBER: u64 = 1 << 46;
 
 /// The bytes of a table with these channels, in this order. The same sources give the same bytes.
 pub fn encode(sources: &[ChannelSource]) -> Result<Vec<u8>, String> {
@@ -44,9 +44,9 @@ fn channel(source: &ChannelSource) -> Result<(Layout, Vec<Vec<u8>>), String> {
     let recipe = &source.recipe;
     let records: Vec<Record> =
         (0..=recipe.segments).into_par_iter().map(|segment| record(source, segment)).collect();
-    if records.iter().flatten().flatten().any(|number| number.abs() > MAX_NUMBER) {
+    if records.iter().flatten().flatten().any(|number| number.unsigned_abs() > MAX_NUMBER) {
         return Err(format!(
-            "{}: a quantum gives numbers beyond {MAX_NUMBER}; enlarge it",
+            "{}: a value is missing, or a quantum gives numbers beyond {MAX_NUMBER}; enlarge it",
             recipe.id
         ));
     }
@@ -112,7 +112,10 @@ fn record(source: &ChannelSource, segment: u32) -> Record {
     };
     let mut record = Record::default();
     for (component, numbers) in record[..recipe.components].iter_mut().enumerate() {
-        let rounded = |value: &DVec3| (value[component] / recipe.quantum[component]).round() as i64;
+        let rounded = |value: &DVec3| match value[component] / recipe.quantum[component] {
+            number if number.is_nan() => i64::MAX,
+            number => number.round() as i64,
+        };
         numbers.push(rounded(&border));
         numbers.extend(coefficients.iter().map(rounded));
     }

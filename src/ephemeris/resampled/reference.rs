@@ -4,6 +4,7 @@
 use glam::{DMat3, DVec3};
 
 use super::header::{Fields, Writer};
+use crate::ephemeris::orientation::Nutation;
 use crate::ephemeris::polynomial::polynomial;
 use crate::time::{JulianDate, Tdb};
 use crate::units::Angle;
@@ -22,6 +23,8 @@ pub type Powers = [f64; 4];
 pub enum Reference {
     /// Nothing: the residual is the value itself.
     None,
+    /// Nutation by the 77 terms of IAU 2000B: longitude, obliquity and locator, radians.
+    ShortNutation,
     /// A mean ellipse; residuals are radial, transverse and normal to its plane.
     Orbit(Box<Orbit>),
 }
@@ -59,6 +62,11 @@ impl Reference {
     pub(super) fn at(&self, tdb: JulianDate<Tdb>) -> Station {
         match self {
             Reference::None => Station { origin: DVec3::ZERO, axes: DMat3::IDENTITY },
+            Reference::ShortNutation => {
+                // TT and TDB differ by 2 ms, nutation by 1e-9" in that time.
+                let nutation = Nutation::iau2000b(tdb.read_on(0.0));
+                Station { origin: nutation.vector_rad(), axes: DMat3::IDENTITY }
+            }
             Reference::Orbit(orbit) => orbit.at(tdb),
         }
     }
@@ -66,6 +74,7 @@ impl Reference {
     pub(super) fn write(&self, writer: &mut Writer) {
         match self {
             Reference::None => writer.u8(0),
+            Reference::ShortNutation => writer.u8(2),
             Reference::Orbit(orbit) => {
                 writer.u8(1);
                 for powers in orbit.powers() {
@@ -87,6 +96,7 @@ impl Reference {
                 }
                 Ok(Reference::Orbit(Box::new(orbit)))
             }
+            2 => Ok(Reference::ShortNutation),
             other => Err(format!("asks for reference {other}, which this program does not know")),
         }
     }

@@ -82,8 +82,8 @@ fn file() -> Vec<u8> {
     .unwrap()
 }
 
-const QUANTITIES: [(&str, fn(JulianDate<Tdb>) -> DVec3); 3] =
-    [("curve", curve), ("around", around), ("angle", angle)];
+type Quantity = (&'static str, fn(JulianDate<Tdb>) -> DVec3);
+const QUANTITIES: [Quantity; 3] = [("curve", curve), ("around", around), ("angle", angle)];
 
 /// Moments over the span of a channel, the borders of its segments among them.
 fn moments(channel: &Channel) -> impl Iterator<Item = JulianDate<Tdb>> {

@@ -1,6 +1,8 @@
 //! Makes the files in `catalogs/` out of the raw tables, or checks that they are what packing
 //! makes.
 
+mod kernels;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,6 +11,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use nocturne::catalog::pack::{self, Packed, SOURCES_FILE};
 use nocturne::catalog::sha256_hex;
+use nocturne::ephemeris::orientation::nutation::table as nutation_table;
 use nocturne::export::OutputFile;
 
 /// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
@@ -27,6 +30,9 @@ struct Args {
     /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
     #[arg(long, value_name = "FILE")]
     moon: Option<PathBuf>,
+    /// Directory of the kernels; without one its table stays as it is
+    #[arg(long, value_name = "DIR", default_value = "target/kernels")]
+    kernels: PathBuf,
     /// Write nothing; say whether packing gives the same bytes.
     #[arg(long)]
     check: bool,
@@ -48,6 +54,7 @@ fn run(args: &Args) -> Result<bool, String> {
     let mut packed = vec![
         pack::stars(&args.raw).map_err(|error| error.to_string())?,
         pack::places(&args.raw).map_err(|error| error.to_string())?,
+        nutation()?,
     ];
     match moon_picture(args) {
         Some(path) => packed.push(moon(&args.raw, &path)?),
@@ -55,11 +62,18 @@ fn run(args: &Args) -> Result<bool, String> {
             "moon_albedo.bin: no {MOON_PICTURE} among the raw tables, the packed map stays as it is"
         ),
     }
+    packed.extend(kernels::tables(&args.kernels)?);
     if args.check {
         return Ok(check(&args.out, &packed));
     }
     write(&args.out, &packed)?;
     Ok(true)
+}
+
+/// The table of nutation needs no raw table: the series is compiled in.
+fn nutation() -> Result<Packed, String> {
+    let summary = "IAU 2000A, 1550 to 2650, as what IAU 2000B leaves out".into();
+    Ok(Packed { file: nutation_table::FILE, bytes: nutation_table::encode()?, summary })
 }
 
 fn moon_picture(args: &Args) -> Option<PathBuf> {
