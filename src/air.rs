@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub mod extinction;
+mod ray;
 pub mod refraction;
 pub mod scattering;
 pub mod standard;
@@ -70,6 +71,11 @@ impl Default for Atmosphere {
 pub enum AirError {
     #[error("air: {what} is {value}, outside {low} to {high}; choose a value inside")]
     Range { what: &'static str, value: f64, low: f64, high: f64 },
+    #[error(
+        "air: {pressure_mbar} mbar at {height_m} m make air on the ground that bends light around the \
+         Earth; give the pressure at the height of the observer"
+    )]
+    Duct { pressure_mbar: f64, height_m: f64 },
 }
 
 impl Atmosphere {

@@ -43,6 +43,7 @@ pub mod moon_orientation;
 mod observation;
 pub mod orientation;
 mod paper;
+pub mod phase;
 mod planets;
 mod polynomial;
 pub mod resampled;

@@ -3,7 +3,7 @@
 
 use crate::catalog::Star;
 use crate::ephemeris::apparent::{ApparentPlace, Observer};
-use crate::ephemeris::moon_orientation::{Libration, moon_fixed_from_icrs};
+use crate::ephemeris::moon_orientation::Libration;
 use crate::ephemeris::stars::StarReduction;
 use crate::ephemeris::{
     Body, Ephemeris, EphemerisError, Observation, Seen, Tier, Tolerance, saturn_pole,
@@ -11,7 +11,7 @@ use crate::ephemeris::{
 use crate::frame::{Dir, Horizon, Icrs, MoonFixed, Rot};
 use crate::place::Place;
 use crate::time::Instant;
-use crate::units::{Angle, DAY_S, LIGHT_SPEED_KM_S};
+use crate::units::Angle;
 
 /// The sky of one place at one instant, geometric: what stands there without air.
 #[derive(Debug, Clone)]
@@ -111,7 +111,7 @@ impl SkyState {
             horizon_from_icrs: observer.horizon_from_icrs,
             mean_obliquity: observer.orientation.mean_obliquity,
             sun,
-            moon: moon_state(moon, &moon_place, &observer),
+            moon: moon_state(moon, &moon_place, &observation),
             planets,
             stars,
         })
@@ -159,12 +159,11 @@ fn body_state(body: Body, seen: &Seen, observer: &Observer) -> BodyState {
     }
 }
 
-fn moon_state(state: BodyState, apparent: &ApparentPlace, observer: &Observer) -> MoonState {
-    let light_time_s = apparent.topocentric_distance_km / LIGHT_SPEED_KM_S;
-    let axes = moon_fixed_from_icrs(observer.tdb.plus_days(-light_time_s / DAY_S));
+fn moon_state(state: BodyState, apparent: &ApparentPlace, observation: &Observation) -> MoonState {
+    let axes = observation.moon_fixed_from_icrs(apparent);
     MoonState {
         state,
-        horizon_from_moon_fixed: observer.horizon_from_icrs * axes.inverse(),
+        horizon_from_moon_fixed: observation.observer().horizon_from_icrs * axes.inverse(),
         libration: Libration::facing(axes, -apparent.from_observer.dir()),
         subsolar: Libration::facing(axes, -apparent.from_sun.dir()),
     }

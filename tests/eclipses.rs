@@ -29,7 +29,7 @@ const BEST: Angle = Angle::from_arcsec(0.001);
 
 static EPHEMERIS: LazyLock<Ephemeris> = LazyLock::new(|| {
     let catalogs = Catalogs::locate(None).expect("the catalogues of this repository");
-    Ephemeris::load(&catalogs).expect("tables that are whole")
+    Ephemeris::load(&catalogs, BEST).expect("tables that are whole")
 });
 
 /// All eclipses of 1901 to 2100.

@@ -6,14 +6,14 @@ use std::sync::LazyLock;
 use glam::DVec3;
 use nocturne::catalog::{Catalogs, Star};
 use nocturne::ephemeris::apparent::{ApparentPlace, Observer};
-use nocturne::ephemeris::moon_orientation::{Libration, axis_position_angle, moon_fixed_from_icrs};
+use nocturne::ephemeris::moon_orientation::MoonPhysical;
 use nocturne::ephemeris::stars::StarReduction;
 use nocturne::ephemeris::{Body, Depth, Ephemeris, EphemerisError, Observation, Tier};
-use nocturne::frame::{Dir, Horizon, Icrs, TrueOfDate};
+use nocturne::frame::{Dir, Horizon, TrueOfDate};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
 use nocturne::time::{Instant, JulianDate, Tt, Ut1};
-use nocturne::units::{AU_KM, Angle, DAY_S, LIGHT_SPEED_KM_S, Magnitude};
+use nocturne::units::{AU_KM, Angle, Magnitude};
 
 const DE440: &str = include_str!("truth/ephemeris_de440.csv");
 const DEEP_TIME: &str = include_str!("truth/ephemeris_deep_time.csv");
@@ -264,7 +264,6 @@ fn star(name: &str) -> Option<Star> {
 #[test]
 fn stars_stand_where_hipparcos_and_erfa_put_them() {
     let mut largest = Largest::default();
-    let analytic = Ephemeris::analytic();
     for_each_row(DE440, |row| {
         let Some(star) = star(row.text("body")) else { return };
         let instant = de440_instant(row);
@@ -272,7 +271,8 @@ fn stars_stand_where_hipparcos_and_erfa_put_them() {
         let topocentric: Dir<TrueOfDate> = row.dir("topo_ra_app_deg", "topo_dec_app_deg");
         let horizon: Dir<Horizon> =
             Dir::from_azimuth_altitude(row.angle("az_deg"), row.angle("alt_deg_airless"));
-        for (tier, tolerance_arcsec) in [(Tier::Series, 0.05), (Tier::Paper, 0.2)] {
+        let best = Tier::De440(Depth::Thousandth);
+        for (tier, tolerance_arcsec) in [(best, 0.0005), (Tier::Series, 0.05), (Tier::Paper, 0.2)] {
             let stars = StarReduction::new(&observer, &EPHEMERIS.earth(instant.tdb, tier).unwrap());
             let equatorial = observer.true_from_icrs * stars.icrs(&star);
             let local = stars.horizon_all(std::slice::from_ref(&star))[0];
@@ -287,7 +287,7 @@ fn stars_stand_where_hipparcos_and_erfa_put_them() {
         }
     });
     largest.print();
-    assert_eq!(largest.0.len(), 8);
+    assert_eq!(largest.0.len(), 12);
 }
 
 #[test]
@@ -297,35 +297,38 @@ fn the_moon_turns_as_its_integrated_librations_say() {
         if row.text("geo_libr_lon_deg").is_empty() {
             return;
         }
-        let instant = de440_instant(row);
-        let observer = Observer::at(&EPHEMERIS, &instant, &de440_place(row), Angle::ZERO);
-        let earth = EPHEMERIS.earth(instant.tdb, Tier::Series).unwrap();
-        let seen =
-            ApparentPlace::of(&EPHEMERIS, Body::Moon, Tier::Series, &observer, &earth).unwrap();
-        let light_time_days = seen.geocentric_distance_km / LIGHT_SPEED_KM_S / DAY_S;
-        let axes = moon_fixed_from_icrs(instant.tdb.plus_days(-light_time_days));
-
-        let geocentric = Libration::facing(axes, -seen.from_earth.dir());
-        let topocentric = Libration::facing(axes, -seen.from_observer.dir());
-        let subsolar = Libration::facing(axes, -seen.from_sun.dir());
-        let axis = |from: Dir<Icrs>| axis_position_angle(axes, observer.true_from_icrs, from);
-        for (column, angle) in [
-            ("geo_libr_lon_deg", geocentric.longitude),
-            ("geo_libr_lat_deg", geocentric.latitude),
-            ("topo_libr_lon_deg", topocentric.longitude),
-            ("topo_libr_lat_deg", topocentric.latitude),
-            ("subsolar_lon_deg", subsolar.longitude),
-            ("subsolar_lat_deg", subsolar.latitude),
-            ("axis_PA_deg", axis(seen.from_earth.dir())),
-            ("topo_axis_PA_deg", axis(seen.from_observer.dir())),
-        ] {
-            let error_deg = (angle - row.angle(column)).signed().deg();
-            largest.note(format!("{column}, degrees"), error_deg);
-            assert!(error_deg.abs() < 0.012, "{column} at {:?}: {error_deg}", instant.tt);
+        let (instant, place) = (de440_instant(row), de440_place(row));
+        for (ephemeris, name, tolerance_deg) in
+            [(&*EPHEMERIS, "DE440, DE421", 0.0001), (&Ephemeris::analytic(), "series", 0.012)]
+        {
+            let mut observation = Observation::at(ephemeris, &instant, &place, Angle::ZERO);
+            let seen = observation.seen(Body::Moon).unwrap().place;
+            let MoonPhysical { geocentric, topocentric, subsolar, colongitude, phase } =
+                observation.moon_physical(&seen);
+            for (column, angle) in [
+                ("geo_libr_lon_deg", geocentric.libration.longitude),
+                ("geo_libr_lat_deg", geocentric.libration.latitude),
+                ("axis_PA_deg", geocentric.axis_position_angle),
+                ("topo_libr_lon_deg", topocentric.libration.longitude),
+                ("topo_libr_lat_deg", topocentric.libration.latitude),
+                ("topo_axis_PA_deg", topocentric.axis_position_angle),
+                ("subsolar_lon_deg", subsolar.longitude),
+                ("subsolar_lat_deg", subsolar.latitude),
+                ("colongitude_deg", colongitude),
+                ("phase_angle_deg", phase.angle),
+            ] {
+                let error_deg = (angle - row.angle(column)).signed().deg();
+                largest.note(format!("{column} {name}, degrees"), error_deg);
+                assert!(
+                    error_deg.abs() < tolerance_deg,
+                    "{column} at {:?}: {error_deg}",
+                    instant.tt
+                );
+            }
         }
     });
     largest.print();
-    assert_eq!(largest.0.len(), 8);
+    assert_eq!(largest.0.len(), 20);
 }
 
 #[test]

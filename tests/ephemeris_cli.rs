@@ -338,6 +338,9 @@ fn the_name_of_the_output_says_the_format() {
         .and(words("--format parquet"))
         .through_shell(r#""$@" >piped.parquet"#);
     assert_eq!(piped.done().read("piped.parquet"), run("-o sky.parquet").read("sky.parquet"));
+    // Columns of other bodies are blank from end to end.
+    let parquet = parquet::read(&run("-o sky.parquet").read("sky.parquet"));
+    assert_rounded(&columns_of_csv(&written), &parquet);
     for wrong in ["-o sky.xls", "-o sky", "-o sky.csv.gz"] {
         let run = nocturne(words(asked)).and(words(wrong));
         run.refused(NONSENSE, &["--output", ".csv, .txt, .jsonl or .parquet", "--format"]);

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use nocturne::catalog::Catalogs;
-use nocturne::ephemeris::EarthState;
 use nocturne::ephemeris::apparent::Observer;
 use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
+use nocturne::ephemeris::{EarthState, Ephemeris};
 use nocturne::frame::{Dir, Icrs, Pos};
 use nocturne::place::Place;
 use nocturne::time::{Instant, JulianDate};
+use nocturne::units::Angle;
 
 const ERFA: &str = include_str!("truth/stars_erfa.csv");
 
@@ -30,7 +31,7 @@ fn stars_stand_where_erfa_puts_them_given_the_earth() {
         let tdb = JulianDate::from_parts(numbers[0], numbers[1]);
         let tt = tdb.read_on(0.0);
         let instant = Instant { utc: tt.read_on(0.0), ut1: tt.read_on(0.0), tt, tdb };
-        let observer = Observer::at(&instant, &place);
+        let observer = Observer::at(&Ephemeris::analytic(), &instant, &place, Angle::ZERO);
         let earth = EarthState {
             position: Pos::from_km(vector(2)),
             velocity_km_s: vector(5),
@@ -61,7 +62,7 @@ fn a_place_on_the_earth_sees_stars_by_its_own_velocity_and_parallax() {
         sun: Pos::from_km(DVec3::new(0.0, 0.0, -1.5e8)),
     };
     let place = Place::new(0.0, 0.0, 0.0).unwrap();
-    let observer = Observer::at(&instant, &place);
+    let observer = Observer::at(&Ephemeris::analytic(), &instant, &place, Angle::ZERO);
     let reduction = StarReduction::new(&observer, &earth);
     let (centre, surface) = (reduction.geocentric(star), reduction.topocentric(star));
     // Diurnal aberration: 0.465 km/s at the equator over the speed of light is 0.320".
@@ -81,7 +82,12 @@ fn a_place_on_the_earth_sees_stars_by_its_own_velocity_and_parallax() {
 fn a_catalogue_at_once_is_its_stars_one_by_one() {
     let stars = Catalogs::locate(None).unwrap().stars().unwrap();
     let instant = Instant::from_tt(JulianDate::from_jd(2_460_000.0)).unwrap();
-    let observer = Observer::at(&instant, &Place::new(35.0, -111.0, 2100.0).unwrap());
+    let observer = Observer::at(
+        &Ephemeris::analytic(),
+        &instant,
+        &Place::new(35.0, -111.0, 2100.0).unwrap(),
+        Angle::ZERO,
+    );
     let ephemeris = nocturne::ephemeris::Ephemeris::analytic();
     let earth = ephemeris.earth(instant.tdb, nocturne::ephemeris::Tier::Series).unwrap();
     let reduction = StarReduction::new(&observer, &earth);

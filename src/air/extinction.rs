@@ -3,11 +3,9 @@
 //! Theory: along the line of sight the air holds columns of molecules, of ozone and of aerosol; each
 //! column times its cross-section is an optical depth, and `exp(-sum)` of the light passes.
 //!
-//! How: the ray is bent by the same air that dims it. On a sphere `n r cos(altitude)` keeps its value
-//! along a ray, so a column is one integral, taken by Gauss and Legendre's rule in
-//! `n r sin(altitude)`, where nothing diverges at the horizon. Published formulas for
-//! relative air mass (Schaefer 1993, *Vistas in Astronomy* 36, 311) serve as a check only: they hold
-//! for sea level and for one scale height, this for any.
+//! How: the ray is bent by the same air that dims it, and a column is one integral along it
+//! (`air/ray.rs`). Published formulas for relative air mass (Schaefer 1993, *Vistas in Astronomy* 36,
+//! 311) serve as a check only: they hold for sea level and for one scale height, this for any.
 //!
 //! Cross-sections: molecules after Bodhaine et al. 1999, *J. Atmos. Oceanic Technol.* 16, 1854,
 //! eq. 29; ozone after Serdyuchenko et al. 2014 at 233 K; aerosol by Angstrom's law. Profiles: US
@@ -19,8 +17,9 @@
 
 use std::sync::LazyLock;
 
+use crate::air::ray::{Bending, Ray, RefractiveAir, Step};
 use crate::air::standard::{logarithmic_density_slope_per_km, number_density_per_m3};
-use crate::air::{AIR_TOP_KM, Atmosphere, EARTH_RADIUS_KM};
+use crate::air::{AIR_TOP_KM, Atmosphere};
 use crate::light::spectrum::{LEN, Transmittance, interpolate, shipped_column, wavelength_nm};
 use crate::units::Angle;
 
@@ -92,13 +91,7 @@ pub struct AirMasses {
 /// The Earth is a smooth sphere at sea level, seen through the air of [`Atmosphere`]. Below sea
 /// level the observer stands on the ground, and the horizon is level.
 pub fn horizon_altitude(air: &Atmosphere, height_m: f64) -> Angle {
-    let refractivity = Refractivity::of(air, height_m);
-    let height_km = (height_m / 1000.0).max(0.0);
-    let (ground, here) =
-        (refractivity.scaled_radius_km(0.0), refractivity.scaled_radius_km(height_km));
-    // By the tangent: the cosine of a small angle loses half its digits.
-    let sine_squared = ((here - ground) * (here + ground)).max(0.0);
-    Angle::from_rad(-sine_squared.sqrt().atan2(ground))
+    Refractivity::of(air, height_m).horizon_altitude(height_m / 1000.0)
 }
 
 /// What stands between an observer and the light of an apparent altitude.
@@ -115,7 +108,7 @@ pub fn slant_columns(air: &Atmosphere, height_m: f64, apparent_altitude: Angle) 
     let ray = Ray::new(&refractivity, height_km, altitude);
     let density_ratio = air.density_ratio_at(height_m);
     let mut sum = Columns::default();
-    ray.for_each_step(|height_km, length_km| {
+    ray.for_each_step(|&Step { height_km, length_km, .. }| {
         let length_m = length_km * 1000.0;
         sum.air_per_m2 += density_ratio * number_density_per_m3(height_km) * length_m;
         sum.ozone_per_m2 += ozone_per_km(air.ozone_du, height_km) * length_km;
@@ -178,110 +171,15 @@ impl Refractivity {
         let density_ratio = air.density_ratio_at(height_m);
         Refractivity { per_density: density_ratio * SEA_LEVEL_REFRACTIVITY / sea_level }
     }
-    /// Refractive index times distance from the Earth's centre.
-    fn scaled_radius_km(&self, height_km: f64) -> f64 {
-        let index = 1.0 + self.per_density * number_density_per_m3(height_km);
-        index * (EARTH_RADIUS_KM + height_km)
-    }
-    /// Its slope against the height: about 0.84 at sea level, 1 in space.
-    fn scaled_radius_slope(&self, height_km: f64) -> f64 {
+}
+
+impl RefractiveAir for Refractivity {
+    fn bending_at(&self, height_km: f64) -> Bending {
         let refractivity = self.per_density * number_density_per_m3(height_km);
-        let radius_km = EARTH_RADIUS_KM + height_km;
-        1.0 + refractivity * (1.0 + radius_km * logarithmic_density_slope_per_km(height_km))
-    }
-    /// The height of a scaled radius, by Newton's method from a guess.
-    fn height_km(&self, scaled_radius_km: f64, guess_km: f64) -> f64 {
-        let mut height_km = guess_km;
-        for _ in 0..8 {
-            let excess_km = self.scaled_radius_km(height_km) - scaled_radius_km;
-            height_km -= excess_km / self.scaled_radius_slope(height_km);
-            // The slope is near 1 and hardly changes: the error falls by a factor of 50 at least.
-            if excess_km.abs() < 1e-7 {
-                break;
-            }
-        }
-        height_km
+        let slope_per_km = refractivity * logarithmic_density_slope_per_km(height_km);
+        Bending { refractivity, slope_per_km }
     }
 }
-
-/// A ray from the top of the air to the observer, traced from its lowest point.
-///
-/// Steps are taken in `u = n r sin(altitude)`, which grows from zero at the perigee of the ray and
-/// along which the length is `ds = du / (d(n r) / dr)`: nothing diverges at the horizon.
-struct Ray<'a> {
-    refractivity: &'a Refractivity,
-    /// `n r cos(altitude)`, the same all along the ray, kilometres.
-    invariant_km: f64,
-    /// Height of the observer, and of the lowest point on the way; `u` at both.
-    observer_km: f64,
-    lowest_km: f64,
-    observer_u_km: f64,
-    lowest_u_km: f64,
-}
-
-impl<'a> Ray<'a> {
-    fn new(refractivity: &'a Refractivity, observer_km: f64, altitude: Angle) -> Self {
-        let scaled_radius_km = refractivity.scaled_radius_km(observer_km);
-        let invariant_km = scaled_radius_km * altitude.cos();
-        let observer_u_km = scaled_radius_km * altitude.sin().abs();
-        let (lowest_km, lowest_u_km) = if altitude >= Angle::ZERO {
-            (observer_km, observer_u_km)
-        } else {
-            (refractivity.height_km(invariant_km, observer_km), 0.0)
-        };
-        Ray { refractivity, invariant_km, observer_km, lowest_km, observer_u_km, lowest_u_km }
-    }
-
-    /// Visits the ray in steps: (height in kilometres, length of path that it stands for).
-    fn for_each_step(&self, mut visit: impl FnMut(f64, f64)) {
-        /// Heights between which the profiles are smooth, and thin enough for six nodes each.
-        const LEVELS_KM: [f64; 27] = [
-            0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 11.02, 13.0, 16.0, 20.06,
-            25.0, 28.0, 32.16, 36.0, 40.0, 47.35, 51.41, 60.0, 71.8, 86.0, 100.0, AIR_TOP_KM,
-        ];
-        let (mut from_km, mut from_u_km) = (self.lowest_km, self.lowest_u_km);
-        let mut step_to = |end_km: f64, end_u_km: f64, passes: f64| {
-            let (middle, half) = (0.5 * (from_u_km + end_u_km), 0.5 * (end_u_km - from_u_km));
-            for (node, weight) in GAUSS_6 {
-                let scaled_radius_km = self.invariant_km.hypot(middle + half * node);
-                let height_km =
-                    self.refractivity.height_km(scaled_radius_km, 0.5 * (from_km + end_km));
-                let slope = self.refractivity.scaled_radius_slope(height_km);
-                visit(height_km, passes * half * weight / slope);
-            }
-            (from_km, from_u_km) = (end_km, end_u_km);
-        };
-        // What lies below the observer is passed twice.
-        for level_km in LEVELS_KM {
-            if level_km > self.lowest_km && level_km < self.observer_km {
-                step_to(level_km, self.u_km(level_km), 2.0);
-            }
-        }
-        step_to(self.observer_km, self.observer_u_km, 2.0);
-        for level_km in LEVELS_KM {
-            if level_km > self.observer_km {
-                step_to(level_km, self.u_km(level_km), 1.0);
-            }
-        }
-    }
-
-    fn u_km(&self, height_km: f64) -> f64 {
-        let scaled_radius_km = self.refractivity.scaled_radius_km(height_km);
-        let square =
-            (scaled_radius_km - self.invariant_km) * (scaled_radius_km + self.invariant_km);
-        square.max(0.0).sqrt()
-    }
-}
-
-/// Nodes and weights of Gauss and Legendre's rule of order 6 on [-1, 1].
-const GAUSS_6: [(f64, f64); 6] = [
-    (-0.932_469_514_203_152, 0.171_324_492_379_170_4),
-    (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (-0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_4),
-];
 
 #[cfg(test)]
 mod tests {

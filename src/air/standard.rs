@@ -10,23 +10,24 @@ pub const SEA_LEVEL_PRESSURE_MBAR: f64 = 1013.25;
 /// Radius that turns geometric into geopotential height, kilometres.
 const GEOPOTENTIAL_RADIUS_KM: f64 = 6356.766;
 /// `g0 M0 / R*`, kelvin per geopotential kilometre.
-const HYDROSTATIC_K_PER_KM: f64 = 34.163_195;
+pub(super) const HYDROSTATIC_K_PER_KM: f64 = 34.163_195;
 /// Boltzmann constant, J/K (SI 2019, exact).
 const BOLTZMANN_J_K: f64 = 1.380_649e-23;
 
 /// Base of a layer: geopotential height (km), temperature (K), its slope (K/km), pressure (mbar).
-struct Layer {
-    base_km: f64,
-    base_k: f64,
-    slope_k_per_km: f64,
-    base_mbar: f64,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layer {
+    pub base_km: f64,
+    pub base_k: f64,
+    pub slope_k_per_km: f64,
+    pub base_mbar: f64,
 }
 
 const fn layer(base_km: f64, base_k: f64, slope_k_per_km: f64, base_mbar: f64) -> Layer {
     Layer { base_km, base_k, slope_k_per_km, base_mbar }
 }
 
-const LAYERS: [Layer; 8] = [
+pub(super) const LAYERS: [Layer; 8] = [
     layer(0.0, 288.15, -6.5, SEA_LEVEL_PRESSURE_MBAR),
     layer(11.0, 216.65, 0.0, 226.320_6),
     layer(20.0, 216.65, 1.0, 54.748_89),
@@ -37,22 +38,34 @@ const LAYERS: [Layer; 8] = [
     layer(84.852, 186.946, 0.0, 0.003_733_8),
 ];
 
-fn geopotential_km(height_km: f64) -> f64 {
+pub(super) fn geopotential_km(height_km: f64) -> f64 {
     GEOPOTENTIAL_RADIUS_KM * height_km / (GEOPOTENTIAL_RADIUS_KM + height_km)
 }
 
-fn layer_at(geopotential_km: f64) -> &'static Layer {
+/// Slope of the geopotential height against the geometric one.
+pub(super) fn geopotential_slope(height_km: f64) -> f64 {
+    (GEOPOTENTIAL_RADIUS_KM / (GEOPOTENTIAL_RADIUS_KM + height_km)).powi(2)
+}
+
+/// Number of the layer, lowest first.
+pub(super) fn layer_at(geopotential_km: f64) -> usize {
     let above = LAYERS.partition_point(|layer| layer.base_km <= geopotential_km);
     // What lies below the sea continues the lowest layer.
-    &LAYERS[above.max(1) - 1]
+    above.max(1) - 1
+}
+
+impl Layer {
+    pub fn temperature_k(&self, geopotential_km: f64) -> f64 {
+        self.base_k + self.slope_k_per_km * (geopotential_km - self.base_km)
+    }
 }
 
 /// Temperature (K) and pressure (mbar) at a geometric height above sea level, kilometres.
 fn temperature_and_pressure(height_km: f64) -> (f64, f64) {
     let geopotential_km = geopotential_km(height_km);
-    let layer = layer_at(geopotential_km);
+    let layer = &LAYERS[layer_at(geopotential_km)];
     let rise_km = geopotential_km - layer.base_km;
-    let temperature_k = layer.base_k + layer.slope_k_per_km * rise_km;
+    let temperature_k = layer.temperature_k(geopotential_km);
     let pressure_ratio = if layer.slope_k_per_km == 0.0 {
         (-HYDROSTATIC_K_PER_KM * rise_km / layer.base_k).exp()
     } else {
@@ -76,11 +89,11 @@ pub fn number_density_per_m3(height_km: f64) -> f64 {
 
 /// How fast the logarithm of the number density changes with height, per kilometre; negative.
 pub fn logarithmic_density_slope_per_km(height_km: f64) -> f64 {
-    let slope_k_per_km = layer_at(geopotential_km(height_km)).slope_k_per_km;
-    let (temperature_k, _) = temperature_and_pressure(height_km);
-    let geopotential_slope =
-        (GEOPOTENTIAL_RADIUS_KM / (GEOPOTENTIAL_RADIUS_KM + height_km)).powi(2);
-    -(HYDROSTATIC_K_PER_KM + slope_k_per_km) / temperature_k * geopotential_slope
+    let geopotential_km = geopotential_km(height_km);
+    let layer = &LAYERS[layer_at(geopotential_km)];
+    let per_geopotential_km =
+        -(HYDROSTATIC_K_PER_KM + layer.slope_k_per_km) / layer.temperature_k(geopotential_km);
+    per_geopotential_km * geopotential_slope(height_km)
 }
 
 #[cfg(test)]

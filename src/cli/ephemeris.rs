@@ -25,9 +25,9 @@ use super::error::CliError;
 use super::progress::Progress;
 
 use names::Names;
-use reckon::Promise;
+use reckon::{Promise, Reckoner};
 use rows::RowBlocks;
-use sheet::Layout;
+use sheet::{Asked, Layout};
 use span::Span;
 use stream::Stopped;
 
@@ -243,53 +243,63 @@ struct Table<'a> {
 impl Table<'_> {
     fn of_rows(&self, source: Source, format: Format, out: &mut dyn Write) -> Result<(), Stopped> {
         let mut blocks = RowBlocks::open(source.name, source.reader, ROWS_BLOCK_BYTES)?;
-        let layout = Layout::of_rows(format);
-        let sheet = Sheet { columns: layout.columns(), format };
         let header = blocks.header().clone();
-        let progress = Progress::counting(self.quiet, source.bytes.unwrap_or(0), "bytes");
-        stream::run(
-            &sheet,
+        let is_quiet = self.quiet || source.bytes.is_none();
+        let progress = Progress::counting(is_quiet, source.bytes.unwrap_or(0), "bytes");
+        self.of(
+            Layout::of_rows(format),
+            format,
             out,
+            &progress,
             || blocks.next(),
-            |block| {
-                let mut part = sheet.part();
-                let mut reckoner = reckon::Reckoner::new(self.ephemeris, self.promise);
-                block.for_each_row(&header, self.names, |row| {
-                    let figures = reckoner.figures(&row.target, &row.key.instant, &row.place)?;
-                    layout.add(&sheet, &mut part, &row.key, &figures);
-                    Ok(())
-                })?;
-                progress.advance(block.len() as u64);
-                Ok(part)
+            |block, row| {
+                block.for_each_row(&header, self.names, row)?;
+                Ok(block.size())
             },
-        )?;
-        progress.finish();
-        Ok(())
+        )
     }
 
     fn of_span(&self, span: &Span, format: Format, out: &mut dyn Write) -> Result<(), Stopped> {
         let layout = Layout::of_span(format, span.has_place(), span.has_moon());
-        let sheet = Sheet { columns: layout.columns(), format };
         let mut blocks = span.blocks();
         let progress = Progress::counting(self.quiet, span.instants, "instants");
-        stream::run(
-            &sheet,
+        self.of(
+            layout,
+            format,
             out,
+            &progress,
             || Ok(blocks.next()),
-            |block| {
-                let mut part = sheet.part();
-                let mut reckoner = reckon::Reckoner::new(self.ephemeris, self.promise);
-                let instants = block.end - block.start;
-                span.for_each_row(block, |row| {
-                    let figures = reckoner.figures(&row.target, &row.key.instant, row.place)?;
-                    layout.add(&sheet, &mut part, &row.key, &figures);
-                    Ok(())
-                })?;
-                progress.advance(instants);
-                Ok(part)
+            |instants, row| {
+                span.for_each_row(instants, row)?;
+                Ok(instants.end - instants.start)
             },
-        )?;
+        )
+    }
+
+    /// A table of the blocks that `next` gives; `each` hands on their rows, and says how much of the
+    /// whole a block is.
+    fn of<B: Send>(
+        &self,
+        layout: Layout,
+        format: Format,
+        out: &mut dyn Write,
+        progress: &Progress,
+        next: impl FnMut() -> Result<Option<B>, CliError>,
+        each: impl Fn(&B, &mut dyn FnMut(&Asked) -> Result<(), String>) -> Result<u64, CliError> + Sync,
+    ) -> Result<(), Stopped> {
+        let sheet = Sheet { columns: layout.columns(), format };
+        let result = stream::run(&sheet, out, next, |block| {
+            let mut part = sheet.part();
+            let mut reckoner = Reckoner::new(self.ephemeris, self.promise);
+            let size = each(&block, &mut |asked| {
+                let figures = reckoner.figures(asked)?;
+                layout.add(&sheet, &mut part, asked, &figures);
+                Ok(())
+            })?;
+            progress.advance(size);
+            Ok(part)
+        });
         progress.finish();
-        Ok(())
+        result
     }
 }

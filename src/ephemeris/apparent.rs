@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::body::Body;
 use super::orientation::Orientation;
-use super::tables::{EarthState, Ephemeris};
+use super::tables::{Departure, EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier, Tolerance};
 use crate::frame::{Dir, Horizon, Icrs, Itrs, Pos, Rot, TrueOfDate};
 use crate::place::Place;
@@ -132,10 +132,7 @@ impl ApparentPlace {
 
 /// The last of the way that a body went before the light left it that arrives now.
 struct LightPath {
-    /// Where the body was `estimate_s` ago.
-    retarded: Pos<Icrs>,
-    velocity_km_s: Pos<Icrs>,
-    estimate_s: f64,
+    departure: Departure,
     /// How long the light took to the centre of the Earth.
     light_time_s: f64,
 }
@@ -150,21 +147,20 @@ impl LightPath {
         tdb: JulianDate<Tdb>,
     ) -> Result<LightPath, EphemerisError> {
         let light_time_s = |from: Pos<Icrs>| (from - earth).distance_km() / LIGHT_SPEED_KM_S;
-        let (now, retarded, estimate_s) =
-            ephemeris.now_and_before(body, tdb, tier, light_time_s)?;
-        let velocity_km_s = (now - retarded) * estimate_s.recip();
-        let mut path = LightPath { retarded, velocity_km_s, estimate_s, light_time_s: estimate_s };
-        // Each round gains a factor of 10^4, the ratio of light to planets. The estimate is wrong by
-        // a second at most, in which no body strays a metre from a straight line.
+        let departure = ephemeris.departure(body, tdb, tier, light_time_s)?;
+        let mut path = LightPath { departure, light_time_s: departure.before_s };
+        // Each round gains a factor of 10^4, the ratio of light to planets. The departure is wrong
+        // by seconds at most, in which no body strays a metre from a straight line.
         for _ in 0..2 {
             path.light_time_s = light_time_s(path.left_at(path.light_time_s));
         }
         Ok(path)
     }
 
-    /// Where the body was so many seconds before the light arrives, near the estimate.
-    fn left_at(&self, seconds_before: f64) -> Pos<Icrs> {
-        self.retarded + self.velocity_km_s * (self.estimate_s - seconds_before)
+    /// Where the body was so many seconds before the light arrives, near the departure.
+    fn left_at(&self, before_s: f64) -> Pos<Icrs> {
+        let Departure { position, velocity_km_s, before_s: departure_s } = self.departure;
+        position + velocity_km_s * (departure_s - before_s)
     }
 }
 

@@ -35,6 +35,8 @@ struct Plan {
     degree: usize,
     /// Kilometres: along the radius, across it in the plane of the orbit, across the plane.
     quantum_km: [f64; 3],
+    /// What the first and the second depth do without.
+    omitted_bits: [u32; 2],
     /// Pieces of a segment, and their degrees from the first depth to the last.
     pieces: usize,
     piece_degrees: [usize; 3],
@@ -54,9 +56,6 @@ const EARTH: i32 = 399;
 const MOON: i32 = 301;
 const BARYCENTRE: i32 = 0;
 
-/// Bits that the first and the second depth do without: errors of 64 and of 8 quanta.
-const OMITTED_BITS: [u32; 2] = [7, 3];
-
 const PLANS: [Plan; 11] = [
     Plan {
         id: "sun",
@@ -65,6 +64,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 128,
         degree: 16,
         quantum_km: [0.02, 0.02, 0.02],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [5, 7, 9],
     },
@@ -74,7 +74,8 @@ const PLANS: [Plan; 11] = [
         orbit: Some(&orbits::MOON),
         segment_days: 32,
         degree: 33,
-        quantum_km: [1e-4, 1.5e-4, 1.5e-4],
+        quantum_km: [1e-4, 1.4e-4, 1.4e-4],
+        omitted_bits: [6, 3],
         pieces: 4,
         piece_degrees: [11, 13, 15],
     },
@@ -85,6 +86,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 128,
         degree: 28,
         quantum_km: [0.02, 0.01, 0.01],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [7, 9, 11],
     },
@@ -94,7 +96,8 @@ const PLANS: [Plan; 11] = [
         orbit: Some(&orbits::MERCURY),
         segment_days: 64,
         degree: 20,
-        quantum_km: [0.05, 0.03, 0.03],
+        quantum_km: [0.05, 0.027, 0.027],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [11, 13, 15],
     },
@@ -105,6 +108,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 128,
         degree: 21,
         quantum_km: [0.02, 0.01, 0.01],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [7, 9, 9],
     },
@@ -115,6 +119,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 128,
         degree: 17,
         quantum_km: [0.04, 0.02, 0.02],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [7, 7, 9],
     },
@@ -125,6 +130,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 584,
         degree: 11,
         quantum_km: [0.5, 0.3, 0.3],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [5, 7, 7],
     },
@@ -135,6 +141,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 1168,
         degree: 12,
         quantum_km: [0.8, 0.6, 0.6],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [5, 7, 7],
     },
@@ -145,6 +152,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 2336,
         degree: 10,
         quantum_km: [1.5, 1.2, 1.2],
+        omitted_bits: [7, 3],
         pieces: 4,
         piece_degrees: [5, 5, 7],
     },
@@ -155,6 +163,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 2336,
         degree: 8,
         quantum_km: [1.5, 1.5, 1.5],
+        omitted_bits: [7, 3],
         pieces: 2,
         piece_degrees: [5, 5, 7],
     },
@@ -165,6 +174,7 @@ const PLANS: [Plan; 11] = [
         segment_days: 2336,
         degree: 8,
         quantum_km: [1.5, 1.5, 1.5],
+        omitted_bits: [7, 3],
         pieces: 2,
         piece_degrees: [5, 5, 7],
     },
@@ -202,7 +212,7 @@ impl Plan {
             components: 3,
             degree: self.degree,
             quantum: self.quantum_km,
-            omitted_bits: OMITTED_BITS,
+            omitted_bits: self.omitted_bits,
             reference: match self.orbit {
                 Some(orbit) => Reference::Orbit(Box::new(orbit.clone())),
                 None => Reference::None,

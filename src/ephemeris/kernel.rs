@@ -50,15 +50,21 @@ impl Kernel {
         }
         let mut segments = Vec::new();
         let mut record = file.integer(76)? as usize;
-        // No file has more records of summaries than records.
-        for _ in 0..bytes.len() / RECORD_BYTES {
-            let Some(at) = record.checked_sub(1).map(|before| before * RECORD_BYTES) else { break };
+        // The last record of summaries names none; no file has more of them than records.
+        for _ in 0..=bytes.len() / RECORD_BYTES {
+            let Some(at) = record.checked_sub(1).map(|before| before.saturating_mul(RECORD_BYTES))
+            else {
+                break;
+            };
             let (next, count) = (file.number(at)?, file.number(at + 16)?);
             for index in 0..count as usize {
                 let summary = at + 24 + index * SUMMARY_BYTES;
                 segments.extend(Segment::read(file, summary)?);
             }
             record = next as usize;
+        }
+        if segments.is_empty() {
+            return Err("has no positions as Chebyshev polynomials (type 2)".into());
         }
         Ok(Kernel { bytes, segments })
     }

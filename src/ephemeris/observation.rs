@@ -2,12 +2,14 @@
 
 use super::apparent::{ApparentPlace, Observer};
 use super::body::Body;
+use super::moon_orientation::MoonPhysical;
 use super::stars::StarReduction;
 use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier, Tolerance};
+use crate::frame::{Icrs, MoonFixed, Rot};
 use crate::place::Place;
 use crate::time::Instant;
-use crate::units::Angle;
+use crate::units::{Angle, LIGHT_SPEED_KM_S};
 
 /// An observer who asks for one body after the other.
 #[derive(Debug)]
@@ -55,6 +57,24 @@ impl<'a> Observation<'a> {
         let earth = self.earth(tier)?;
         let place = ApparentPlace::of(self.ephemeris, body, tier, &self.observer, &earth)?;
         Ok(Seen { place, tier, error_bound })
+    }
+
+    /// The axes of the Moon's map when the light left it that arrives from there.
+    pub fn moon_fixed_from_icrs(&self, moon: &ApparentPlace) -> Rot<MoonFixed, Icrs> {
+        let light_time_s = moon.geocentric_distance_km / LIGHT_SPEED_KM_S;
+        let departure = self.observer.tdb.plus_seconds(-light_time_s);
+        self.ephemeris.moon_orientation().moon_fixed_from_icrs(departure)
+    }
+
+    /// Librations, axis and phase of the Moon where it is seen.
+    pub fn moon_physical(&self, moon: &ApparentPlace) -> MoonPhysical {
+        MoonPhysical::of(
+            self.moon_fixed_from_icrs(moon),
+            self.observer.true_from_icrs,
+            moon.from_earth,
+            moon.from_observer,
+            moon.from_sun,
+        )
     }
 
     /// What all stars have in common.

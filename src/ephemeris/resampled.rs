@@ -28,6 +28,7 @@ mod encode;
 mod fold;
 mod header;
 mod reference;
+mod rounding;
 #[cfg(test)]
 mod tests;
 

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
+
 use super::body::Body;
 use super::moon::EARTH_MOON_MASS_RATIO;
 use super::resampled::{Channel, Depth, Table};
@@ -15,6 +17,10 @@ const PLANETS: [&str; 8] =
     ["mercury", "venus", "mars", "jupiter", "saturn", "uranus", "neptune", "pluto"];
 /// The first of them are told from the Sun, the others from the barycentre.
 const PLANETS_FROM_SUN: usize = 3;
+
+/// Parts of the way from the Earth to the Moon on both sides of their barycentre.
+const EARTH_FROM_BARYCENTRE: f64 = 1.0 / (1.0 + EARTH_MOON_MASS_RATIO);
+const MOON_FROM_BARYCENTRE: f64 = 1.0 - EARTH_FROM_BARYCENTRE;
 
 /// The channels of one table. Kilometres, ICRS.
 #[derive(Debug)]
@@ -68,17 +74,48 @@ impl SolarSystem {
         let km = match body {
             Body::Sun => at(&self.sun),
             Body::Moon => {
-                let from_barycentre = 1.0 - 1.0 / (1.0 + EARTH_MOON_MASS_RATIO);
-                at(&self.sun) + at(&self.earth_moon) + at(&self.moon) * from_barycentre
+                at(&self.sun) + at(&self.earth_moon) + at(&self.moon) * MOON_FROM_BARYCENTRE
             }
             planet => {
-                let index = planet as usize - Body::Mercury as usize;
-                let origin =
-                    if index < PLANETS_FROM_SUN { at(&self.sun) } else { glam::DVec3::ZERO };
-                origin + at(&self.planets[index])
+                let (channel, from_sun) = self.planet(planet);
+                let origin = if from_sun { at(&self.sun) } else { DVec3::ZERO };
+                origin + at(channel)
             }
         };
         Pos::from_km(km)
+    }
+
+    /// Position from the barycentre, and velocity in kilometres per second.
+    pub fn state(&self, body: Body, tdb: JulianDate<Tdb>, depth: Depth) -> (Pos<Icrs>, Pos<Icrs>) {
+        let at = |channel: &Channel, share: f64| {
+            let (km, km_per_day) = channel.value_and_rate(tdb, depth);
+            (km * share, km_per_day * (share / DAY_S))
+        };
+        let sum = |parts: &[(DVec3, DVec3)]| {
+            let zero = (DVec3::ZERO, DVec3::ZERO);
+            let (km, km_s) =
+                parts.iter().fold(zero, |(p, v), (more_p, more_v)| (p + more_p, v + more_v));
+            (Pos::from_km(km), Pos::from_km(km_s))
+        };
+        match body {
+            Body::Sun => sum(&[at(&self.sun, 1.0)]),
+            Body::Moon => sum(&[
+                at(&self.sun, 1.0),
+                at(&self.earth_moon, 1.0),
+                at(&self.moon, MOON_FROM_BARYCENTRE),
+            ]),
+            planet => {
+                let (channel, from_sun) = self.planet(planet);
+                let origin = if from_sun { at(&self.sun, 1.0) } else { (DVec3::ZERO, DVec3::ZERO) };
+                sum(&[origin, at(channel, 1.0)])
+            }
+        }
+    }
+
+    /// The channel of a planet, and whether it is told from the Sun.
+    fn planet(&self, planet: Body) -> (&Channel, bool) {
+        let index = planet as usize - Body::Mercury as usize;
+        (&self.planets[index], index < PLANETS_FROM_SUN)
     }
 
     /// The Earth, its velocity and the Sun, from the barycentre.
@@ -86,10 +123,9 @@ impl SolarSystem {
         let (sun, sun_rate) = self.sun.value_and_rate(tdb, depth);
         let (earth_moon, earth_moon_rate) = self.earth_moon.value_and_rate(tdb, depth);
         let (moon, moon_rate) = self.moon.value_and_rate(tdb, depth);
-        let share = 1.0 / (1.0 + EARTH_MOON_MASS_RATIO);
         EarthState {
-            position: Pos::from_km(sun + earth_moon - moon * share),
-            velocity_km_s: (sun_rate + earth_moon_rate - moon_rate * share) / DAY_S,
+            position: Pos::from_km(sun + earth_moon - moon * EARTH_FROM_BARYCENTRE),
+            velocity_km_s: (sun_rate + earth_moon_rate - moon_rate * EARTH_FROM_BARYCENTRE) / DAY_S,
             sun: Pos::from_km(sun),
         }
     }

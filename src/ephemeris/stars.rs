@@ -159,6 +159,7 @@ struct Station {
 }
 
 impl Station {
+    #[inline]
     fn sees(&self, star: &SpaceMotion, years: f64) -> Dir<Icrs> {
         let earlier_s = self.from_origin_km.dot(star.dir) / LIGHT_SPEED_KM_S;
         let moved = star.dir + star.per_year * (years + earlier_s / JULIAN_YEAR_S);

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::analytic::Analytic;
 use super::body::Body;
+use super::moon_orientation::MoonOrientation;
 use super::orientation::{Nutation, Nutations};
 use super::resampled::{Depth, Table};
 use super::solar_system::SolarSystem;
@@ -36,6 +37,17 @@ pub struct Ephemeris {
     de440: Option<Arc<SolarSystem>>,
     de431: Option<Arc<SolarSystem>>,
     nutations: Nutations,
+    moon_orientation: MoonOrientation,
+}
+
+/// Where a body was, and how it moved on until now.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Departure {
+    pub position: Pos<Icrs>,
+    /// Kilometres per second.
+    pub velocity_km_s: Pos<Icrs>,
+    /// How long ago.
+    pub before_s: f64,
 }
 
 /// Who serves a tier.
@@ -67,6 +79,7 @@ impl Ephemeris {
         Ok(Ephemeris {
             de440: read(DE440_FILE, depth, Tier::De440(depth))?,
             nutations: Nutations::load(catalogs)?,
+            moon_orientation: MoonOrientation::load(catalogs)?,
             de431: read(DE431_FILE, Depth::Tenth, Tier::De431).unwrap_or_default(),
         })
     }
@@ -140,29 +153,45 @@ impl Ephemeris {
         })
     }
 
-    /// A body where it is now and where it was `light_time_s(now)` seconds before, which may lie a
-    /// little outside the range of the tier.
+    /// A body near the moment when the light left it that arrives now, which may lie a little outside
+    /// the range of the tier.
     ///
     /// # Errors
     ///
     /// As [`Ephemeris::geometric`].
-    pub(super) fn now_and_before(
+    pub(super) fn departure(
         &self,
         body: Body,
         tdb: JulianDate<Tdb>,
         tier: Tier,
         light_time_s: impl FnOnce(Pos<Icrs>) -> f64,
-    ) -> Result<(Pos<Icrs>, Pos<Icrs>, f64), EphemerisError> {
+    ) -> Result<Departure, EphemerisError> {
         tier.check(body, tdb)?;
         let theory = self.theory(tier).ok_or(EphemerisError::NotLoaded { body, tier })?;
+        // Sun and Moon keep their distance: how long the light takes is known before.
+        let known_s = match body {
+            Body::Sun => Some(499.0),
+            Body::Moon => Some(1.28),
+            _ => None,
+        };
+        if let (Theory::Table(table, depth), Some(before_s)) = (&theory, known_s) {
+            let (position, velocity_km_s) = table.state(body, tdb.plus_seconds(-before_s), *depth);
+            return Ok(Departure { position, velocity_km_s, before_s });
+        }
         let now = theory.position(body, tdb);
         let before_s = light_time_s(now);
-        Ok((now, theory.position(body, tdb.plus_seconds(-before_s)), before_s))
+        let position = theory.position(body, tdb.plus_seconds(-before_s));
+        Ok(Departure { position, velocity_km_s: (now - position) * before_s.recip(), before_s })
     }
 
     /// Nutation within a tolerance, at the least cost.
     pub fn nutation(&self, tolerance: Tolerance, tt: JulianDate<Tt>) -> Nutation {
         self.nutations.within(tolerance, tt)
+    }
+
+    /// How the Moon stands.
+    pub fn moon_orientation(&self) -> &MoonOrientation {
+        &self.moon_orientation
     }
 
     fn theory(&self, tier: Tier) -> Option<Theory<'_>> {

@@ -22,7 +22,7 @@ def table(name, head, columns, rows):
     with open(name, "w") as out:
         out.write(head + "# pyerfa 2.0.1.5. Made by make_earth.py.\n" + columns + "\n")
         for row in rows:
-            out.write(NUMBERS % tuple(row) + "\n")
+            out.write(NUMBERS % tuple(row[:13]) + "".join(",%.13f" % more for more in row[13:]) + "\n")
 
 
 def standard():
@@ -33,7 +33,9 @@ def standard():
             dpsi, deps = erfa.nut06a(day, part)
             matrix = erfa.pnm06a(day, part)
             sidereal = erfa.gst06a(day, ut1, day, part)
-            yield (day, part, day, ut1, dpsi / ARCSEC, deps / ARCSEC, *matrix[0], *matrix[2], sidereal)
+            mean = erfa.gmst06(day, ut1, day, part)
+            yield (day, part, day, ut1, dpsi / ARCSEC, deps / ARCSEC, *matrix[0], *matrix[2], sidereal,
+                   mean)
 
 
 def travel(t):
@@ -63,9 +65,9 @@ def long_term():
 
 table(
     "earth_iau2006.csv",
-    HEAD + "true equinox\n# and pole in ICRS axes (pnm06a); Greenwich apparent sidereal time (gst06a).\n",
+    HEAD + "true equinox\n# and pole in ICRS axes (pnm06a); Greenwich apparent sidereal time (gst06a), mean (gmst06).\n",
     "tt_1,tt_2,ut1_1,ut1_2,dpsi_arcsec,deps_arcsec,equinox_x,equinox_y,equinox_z,pole_x,pole_y,pole_z,"
-    "sidereal_rad",
+    "sidereal_rad,mean_sidereal_rad",
     standard(),
 )
 table(

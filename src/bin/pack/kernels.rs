@@ -8,15 +8,22 @@ use std::path::Path;
 use nocturne::catalog::pack::Packed;
 use nocturne::ephemeris::de440;
 use nocturne::ephemeris::kernel::Kernel;
+use nocturne::ephemeris::moon_orientation::{self, LIBRATION_FILE};
 use nocturne::ephemeris::resampled::{Depth, LAYERS, Table};
 
 /// Dates at which a table is compared with its kernel.
 const DATES: u32 = 100_000;
 
+/// A table: its file, its kernel, and what makes the one out of the other.
+type Plan = (&'static str, &'static str, fn(&Path) -> Result<Packed, String>);
+
+const PLANS: [Plan; 2] =
+    [("de440.bin", "de440.bsp", de440), (LIBRATION_FILE, "jpl-librations.npy", librations)];
+
 /// Every table whose kernel lies in the directory.
 pub fn tables(kernels: &Path) -> Result<Vec<Packed>, String> {
     let mut packed = Vec::new();
-    for (file, kernel, pack) in [("de440.bin", "de440.bsp", de440 as fn(&Path) -> _)] {
+    for (file, kernel, pack) in PLANS {
         let path = kernels.join(kernel);
         if path.is_file() {
             packed.push(pack(&path)?);
@@ -55,4 +62,12 @@ fn de440(path: &Path) -> Result<Packed, String> {
     let layers: Vec<_> = (0..LAYERS).map(|layer| sum(layer).to_string()).collect();
     let summary = format!("layers of {} bytes", layers.join(", "));
     Ok(Packed { file: "de440.bin", bytes, summary })
+}
+
+fn librations(path: &Path) -> Result<Packed, String> {
+    let named = |what: String| format!("{}: {what}", path.display());
+    let npy = fs::read(path).map_err(|error| named(error.to_string()))?;
+    let table = moon_orientation::pack(&npy).map_err(named)?;
+    let summary = format!("within {:.3}\" of DE421", table.largest_error.arcsec());
+    Ok(Packed { file: LIBRATION_FILE, bytes: table.bytes, summary })
 }

@@ -30,7 +30,7 @@ struct Args {
     /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
     #[arg(long, value_name = "FILE")]
     moon: Option<PathBuf>,
-    /// Directory of the kernels; without one its table stays as it is
+    /// Directory of the kernels; the table of one that is not there stays as it is
     #[arg(long, value_name = "DIR", default_value = "target/kernels")]
     kernels: PathBuf,
     /// Write nothing; say whether packing gives the same bytes.

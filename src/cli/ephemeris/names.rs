@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 
 use crate::catalog::{CatalogError, Catalogs};
+use crate::cli::error::CliError;
 use crate::ephemeris::Body;
 use crate::ephemeris::stars::SpaceMotion;
-
-use super::super::error::CliError;
 
 /// Longer than any name.
 const LONGEST: usize = 64;

@@ -13,6 +13,7 @@ use crate::time::{Instant, JulianDate, Tdb};
 use crate::units::Angle;
 
 use super::names::Target;
+use super::sheet::Asked;
 
 /// Julian years in which a table is made without a word about how good it is.
 const YEARS: Range<f64> = -3000.0..3001.0;
@@ -93,12 +94,8 @@ impl<'e> Reckoner<'e> {
     /// # Errors
     ///
     /// A sentence: a date that no theory serves, or none as well as was promised.
-    pub fn figures(
-        &mut self,
-        target: &Target,
-        instant: &Instant,
-        place: &Place,
-    ) -> Result<Figures, String> {
+    pub fn figures(&mut self, asked: &Asked) -> Result<Figures, String> {
+        let Asked { target, instant, place, .. } = asked;
         let year = 2000.0 + instant.tdb.centuries_since_j2000() * 100.0;
         if self.promise == Promise::TheBest && !YEARS.contains(&year) {
             return Err(format!(
@@ -109,10 +106,10 @@ impl<'e> Reckoner<'e> {
         let said = |error: EphemerisError| error.to_string();
         let tolerance = self.promise.tolerance();
         let observation = match &mut self.shared {
-            Some((i, p, observation)) if i == instant && p == place => observation,
+            Some((i, p, observation)) if i == instant && p == *place => observation,
             shared => {
                 let observation = Observation::at(self.ephemeris, instant, place, tolerance);
-                &mut shared.insert((*instant, place.clone(), observation)).2
+                &mut shared.insert((*instant, (*place).clone(), observation)).2
             }
         };
         let figures = match target {
@@ -145,7 +142,7 @@ fn of_body(observation: &mut Observation, body: Body) -> Result<Figures, Ephemer
     values[TOPOCENTRIC.start + 2] = place.topocentric_distance_km;
     if body == Body::Moon {
         let columns = MOON_GEOCENTRIC.start..MOON_TOPOCENTRIC.end;
-        values[columns].copy_from_slice(&moon::figures(observation.observer(), place));
+        values[columns].copy_from_slice(&moon::figures(&observation.moon_physical(place)));
     }
     Ok(Figures { values, tier: seen.tier, error_bound: seen.error_bound })
 }

@@ -5,12 +5,12 @@
 
 use std::io::Read;
 
+use crate::cli::error::CliError;
 use crate::place::Place;
 use crate::time::{Instant, JulianDate};
 
-use super::super::error::CliError;
-use super::names::{Names, Target, unknown};
-use super::sheet::{KEY_NUMBERS, KEYS, Key};
+use super::names::{Names, unknown};
+use super::sheet::{Asked, KEY_NUMBERS, KEYS};
 
 /// No line of such a file is longer.
 const LONGEST_LINE: usize = 1 << 20;
@@ -130,17 +130,10 @@ pub struct RowBlock {
     bytes: Vec<u8>,
 }
 
-/// A row that is asked for.
-pub struct RowAsked<'a> {
-    pub key: Key<'a>,
-    pub target: Target,
-    pub place: Place,
-}
-
 impl RowBlock {
     /// Bytes of the file.
-    pub fn len(&self) -> usize {
-        self.bytes.len()
+    pub fn size(&self) -> u64 {
+        self.bytes.len() as u64
     }
 
     /// Each row in turn.
@@ -152,16 +145,14 @@ impl RowBlock {
         &self,
         header: &Header,
         names: &Names,
-        mut row: impl FnMut(&RowAsked) -> Result<(), String>,
+        row: &mut dyn FnMut(&Asked) -> Result<(), String>,
     ) -> Result<(), CliError> {
         let (text, is_whole) = self.text();
         for (line, number) in text.lines().zip(self.first_line..) {
             if is_passed_over(line) {
                 continue;
             }
-            read(line, header, names)
-                .and_then(|asked| row(&asked))
-                .map_err(|what| wrong(&self.source, number, &what))?;
+            read(line, header, names, row).map_err(|what| wrong(&self.source, number, &what))?;
         }
         is_whole
     }
@@ -195,8 +186,13 @@ fn count_lines(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| **byte == b'\n').count()
 }
 
-/// What a line asks for.
-fn read<'a>(line: &'a str, header: &Header, names: &Names) -> Result<RowAsked<'a>, String> {
+/// Hands on what a line asks for.
+fn read(
+    line: &str,
+    header: &Header,
+    names: &Names,
+    row: &mut dyn FnMut(&Asked) -> Result<(), String>,
+) -> Result<(), String> {
     let cells = header.cells(line)?;
     let target = names.find(cells[BODY]).ok_or_else(|| unknown(cells[BODY]))?;
     let has_ut1 = header.has_ut1 && UT1.iter().any(|key| !cells[*key].is_empty());
@@ -229,7 +225,7 @@ fn read<'a>(line: &'a str, header: &Header, names: &Names) -> Result<RowAsked<'a
         numbers[UT1[0] - 1] = instant.ut1.day();
         numbers[UT1[1] - 1] = instant.ut1.fraction();
     }
-    Ok(RowAsked { key: Key { body: cells[BODY], numbers, written, instant }, target, place })
+    row(&Asked { body: cells[BODY], target, instant, place: &place, numbers, written })
 }
 
 fn number(column: &str, cell: &str) -> Result<f64, String> {
@@ -340,8 +336,8 @@ mod tests {
             let mut blocks = RowBlocks::open("rows.csv".to_owned(), file, block_bytes)?;
             let header = blocks.header().clone();
             while let Some(block) = blocks.next()? {
-                block.for_each_row(&header, &NAMES, |row| {
-                    rows.push(format!("{} {:?}", row.key.body, row.key.numbers));
+                block.for_each_row(&header, &NAMES, &mut |asked| {
+                    rows.push(format!("{} {:?}", asked.body, asked.numbers));
                     Ok(())
                 })?;
             }

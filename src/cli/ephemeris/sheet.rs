@@ -2,8 +2,10 @@
 
 use crate::ephemeris::Tier;
 use crate::export::table::{Cell, Column, Format, Kind, Part, Sheet};
+use crate::place::Place;
 use crate::time::Instant;
 
+use super::names::Target;
 use super::reckon::{FIGURES, Figures, GEOCENTRIC, MOON_GEOCENTRIC, MOON_TOPOCENTRIC, TOPOCENTRIC};
 
 /// Columns that say what a row is about, in the order in which they are written.
@@ -12,22 +14,25 @@ pub const KEYS: [&str; 8] =
 /// How many of them are numbers: all but the body.
 pub const KEY_NUMBERS: usize = KEYS.len() - 1;
 
-/// What a row is about.
+/// A row that is asked for.
 #[derive(Debug, Clone)]
-pub struct Key<'a> {
+pub struct Asked<'a> {
+    /// As it was written.
     pub body: &'a str,
-    /// In the order of [`KEYS`].
+    pub target: Target,
+    pub instant: Instant,
+    pub place: &'a Place,
+    /// What [`KEYS`] say of instant and place, in their order.
     pub numbers: [f64; KEY_NUMBERS],
     /// The same as they were written; empty where nobody wrote them.
     pub written: [&'a str; KEY_NUMBERS],
-    pub instant: Instant,
 }
 
 /// Where a column comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Field {
     Body,
-    /// By its place in [`Key::numbers`].
+    /// By its place in [`Asked::numbers`].
     Key(usize),
     Utc,
     /// By its place in [`FIGURES`].
@@ -100,19 +105,22 @@ impl Layout {
     }
 
     /// Adds a row to a part of a sheet with these columns.
-    pub fn add(&self, sheet: &Sheet, part: &mut Part, key: &Key, figures: &Figures) {
-        let utc =
-            if self.fields.contains(&Field::Utc) { key.instant.to_string() } else { String::new() };
+    pub fn add(&self, sheet: &Sheet, part: &mut Part, asked: &Asked, figures: &Figures) {
+        let utc = if self.fields.contains(&Field::Utc) {
+            asked.instant.to_string()
+        } else {
+            String::new()
+        };
         let tier = Tier::ALL.iter().position(|tier| *tier == figures.tier);
         let tier = tier.map_or("", |index| &self.tiers[index]);
         let mut cells = [Cell::Blank; 4 + KEY_NUMBERS + FIGURES.len()];
         for (cell, field) in cells.iter_mut().zip(&self.fields) {
             *cell = match *field {
-                Field::Body => Cell::Text(key.body),
-                Field::Key(index) if key.written[index].is_empty() => {
-                    Cell::Number(key.numbers[index])
+                Field::Body => Cell::Text(asked.body),
+                Field::Key(index) if asked.written[index].is_empty() => {
+                    Cell::Number(asked.numbers[index])
                 }
-                Field::Key(index) => Cell::Written(key.written[index], key.numbers[index]),
+                Field::Key(index) => Cell::Written(asked.written[index], asked.numbers[index]),
                 Field::Utc => Cell::Text(&utc),
                 Field::Figure(index) if figures.values[index].is_nan() => Cell::Blank,
                 Field::Figure(index) => Cell::Number(figures.values[index]),

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
+use crate::cli::error::CliError;
 use crate::place::Place;
 use crate::time::{self, CivilDateTime, Instant, JulianDate};
 use crate::units::{Angle, DAY_S};
 
-use super::super::error::CliError;
 use super::names::Target;
-use super::sheet::{KEY_NUMBERS, Key};
+use super::sheet::{Asked, KEY_NUMBERS};
 
 /// Rows that one task reckons.
 const BLOCK_ROWS: u64 = 512;
@@ -30,13 +30,6 @@ pub struct Span<'a> {
     place: Option<Place>,
     /// Longitude, latitude and height of the place as people write them.
     place_numbers: [f64; 3],
-}
-
-/// A row that is asked for.
-pub struct SpanRow<'a> {
-    pub key: Key<'a>,
-    pub target: Target,
-    pub place: &'a Place,
 }
 
 impl<'a> Span<'a> {
@@ -97,12 +90,12 @@ impl<'a> Span<'a> {
     /// Each body at each of these instants.
     pub fn for_each_row(
         &self,
-        instants: Range<u64>,
-        mut row: impl FnMut(&SpanRow) -> Result<(), String>,
+        instants: &Range<u64>,
+        row: &mut dyn FnMut(&Asked) -> Result<(), String>,
     ) -> Result<(), CliError> {
         let centre = Place::new(0.0, 0.0, 0.0)?;
         let place = self.place.as_ref().unwrap_or(&centre);
-        for index in instants {
+        for index in instants.clone() {
             let instant = self.instant(index)?;
             let Instant { tt, ut1, .. } = instant;
             let [longitude_deg, latitude_deg, height_m] = self.place_numbers;
@@ -111,8 +104,7 @@ impl<'a> Span<'a> {
             let numbers = [tt_1, tt_2, ut1_1, ut1_2, longitude_deg, latitude_deg, height_m];
             for &(body, target) in &self.targets {
                 let written = [""; KEY_NUMBERS];
-                let key = Key { body, numbers, written, instant };
-                row(&SpanRow { key, target, place })
+                row(&Asked { body, target, instant, place, numbers, written })
                     .map_err(|what| CliError::Usage(format!("{body}, {instant}: {what}")))?;
             }
         }

@@ -5,9 +5,8 @@ use std::io::{self, Write};
 
 use rayon::prelude::*;
 
+use crate::cli::error::CliError;
 use crate::export::table::{Part, Sheet, TableWriter};
-
-use super::super::error::CliError;
 
 /// Blocks of work for each thread in a batch: enough that none waits long for the others.
 const BLOCKS_PER_THREAD: usize = 8;

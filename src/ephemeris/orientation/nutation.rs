@@ -5,8 +5,8 @@
 //! (McCarthy & Luzum 2003) is the first 77 terms of it and two constants. Free core nutation (below
 //! 0.0003") cannot be predicted and is left out.
 //!
-//! *How we differ.* All forms have the full arguments of [`super::arguments`]; IAU 2000B by the
-//! letter drops their powers and would have the node 7.5 degrees off at -4000.
+//! *How we differ.* All forms have the full arguments (`arguments`); IAU 2000B by the letter drops
+//! their powers and would have the node 7.5 degrees off at -4000.
 
 mod forms;
 pub mod table;

@@ -46,7 +46,7 @@ pub fn earth_rotation_angle(ut1: JulianDate<Ut1>) -> Angle {
 }
 
 /// Greenwich mean sidereal time, in `[0, 2 pi)`: the angle from the mean equinox of date to the
-/// prime meridian.
+/// prime meridian. Within 0.00003" of `gmst06` of ERFA from 1550 to 2400, and 0.0007" until 2650.
 pub fn mean_sidereal_time(ut1: JulianDate<Ut1>, tt: JulianDate<Tt>) -> Angle {
     let mean = Mean::at(tt);
     let matrix = mean.mean_from_icrs.matrix();

@@ -8,34 +8,36 @@ use glam::DVec3;
 pub(super) struct Lobatto {
     /// `cos(pi j / n)` for j = 0..=n: from +1 to -1.
     pub nodes: Vec<f64>,
+    /// Row k: what the values at the nodes give to the coefficient of `T_k`.
+    weights: Vec<f64>,
 }
 
 impl Lobatto {
     pub fn new(degree: usize) -> Lobatto {
+        let n = degree;
         let node = |j: usize| match 2 * j {
             // The middle exactly, and both halves alike.
-            twice if twice == degree => 0.0,
-            twice if twice < degree => (PI * j as f64 / degree as f64).cos(),
-            _ => -(PI * (degree - j) as f64 / degree as f64).cos(),
+            twice if twice == n => 0.0,
+            twice if twice < n => (PI * j as f64 / n as f64).cos(),
+            _ => -(PI * (n - j) as f64 / n as f64).cos(),
         };
-        Lobatto { nodes: (0..=degree).map(node).collect() }
-    }
-
-    /// Coefficients of `T_0` to `T_n` of the polynomial through these values at the nodes.
-    pub fn coefficients(&self, values: &[DVec3]) -> Vec<DVec3> {
-        let n = self.nodes.len() - 1;
+        let nodes: Vec<f64> = (0..=n).map(node).collect();
         let end = |index: usize| if index == 0 || index == n { 0.5 } else { 1.0 };
         // cos(pi j k / n) is a node again, or the one across.
         let cosine = |product: usize| {
             let turn = product % (2 * n);
-            self.nodes[if turn > n { 2 * n - turn } else { turn }]
+            nodes[if turn > n { 2 * n - turn } else { turn }]
         };
-        (0..=n)
-            .map(|k| {
-                let sum = values.iter().enumerate();
-                let sum: DVec3 = sum.map(|(j, &value)| value * (end(j) * cosine(j * k))).sum();
-                sum * (2.0 * end(k) / n as f64)
-            })
+        let weight = |k: usize, j: usize| 2.0 / n as f64 * end(k) * end(j) * cosine(j * k);
+        let weights = (0..=n).flat_map(|k| (0..=n).map(move |j| (k, j)));
+        let weights = weights.map(|(k, j)| weight(k, j)).collect();
+        Lobatto { nodes, weights }
+    }
+
+    /// Coefficients of `T_0` to `T_n` of the polynomial through these values at the nodes.
+    pub fn coefficients(&self, values: &[DVec3]) -> Vec<DVec3> {
+        let rows = self.weights.chunks_exact(self.nodes.len());
+        rows.map(|row| row.iter().zip(values).map(|(&weight, &value)| value * weight).sum())
             .collect()
     }
 }

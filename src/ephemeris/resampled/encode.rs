@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::bits::{BitWriter, width_of};
 use super::chebyshev::Lobatto;
 use super::header::{self, Layout, Recipe};
+use super::rounding::Rounding;
 use super::{COMPONENTS, LAYERS, moment};
 use crate::catalog::layered;
 use crate::time::{JulianDate, Tdb};
@@ -42,8 +43,11 @@ pub fn encode(sources: &[ChannelSource]) -> Result<Vec<u8>, String> {
 
 fn channel(source: &ChannelSource) -> Result<(Layout, Vec<Vec<u8>>), String> {
     let recipe = &source.recipe;
-    let records: Vec<Record> =
-        (0..=recipe.segments).into_par_iter().map(|segment| record(source, segment)).collect();
+    let rounding = Rounding::new(recipe.degree, recipe.degree + SPARE_DEGREES);
+    let records: Vec<Record> = (0..=recipe.segments)
+        .into_par_iter()
+        .map(|segment| record(source, &rounding, segment))
+        .collect();
     if records.iter().flatten().flatten().any(|number| number.unsigned_abs() > MAX_NUMBER) {
         return Err(format!(
             "{}: a value is missing, or a quantum gives numbers beyond {MAX_NUMBER}; enlarge it",
@@ -95,29 +99,35 @@ fn shares_of(number: i64, recipe: &Recipe) -> [i64; LAYERS] {
 }
 
 /// The numbers of a segment; behind the last one there is a border alone.
-fn record(source: &ChannelSource, segment: u32) -> Record {
+fn record(source: &ChannelSource, rounding: &Rounding, segment: u32) -> Record {
     let recipe = &source.recipe;
     let residual = |x: f64| {
         let tdb = moment(recipe, segment as usize, x);
         let station = recipe.reference.at(tdb);
-        station.axes.transpose() * ((source.sample)(tdb) - station.origin)
+        let stray = station.axes.transpose() * ((source.sample)(tdb) - station.origin);
+        DVec3::from_array([0, 1, 2].map(|component| stray[component] / recipe.quantum[component]))
     };
-    let border = residual(-1.0);
+    let [begin, end] = [-1.0, 1.0].map(residual);
     let coefficients = if segment == recipe.segments {
         Vec::new()
     } else {
         let lobatto = Lobatto::new(recipe.degree + SPARE_DEGREES);
         let values: Vec<DVec3> = lobatto.nodes.iter().map(|&x| residual(x)).collect();
-        lobatto.coefficients(&values).into_iter().skip(2).take(recipe.degree - 1).collect()
+        lobatto.coefficients(&values)
     };
     let mut record = Record::default();
     for (component, numbers) in record[..recipe.components].iter_mut().enumerate() {
-        let rounded = |value: &DVec3| match value[component] / recipe.quantum[component] {
-            number if number.is_nan() => i64::MAX,
-            number => number.round() as i64,
-        };
-        numbers.push(rounded(&border));
-        numbers.extend(coefficients.iter().map(rounded));
+        numbers.push(whole(begin[component]));
+        if segment < recipe.segments {
+            let errors = [begin, end].map(|border| border[component].round() - border[component]);
+            let known: Vec<f64> = coefficients[2..].iter().map(|c| c[component]).collect();
+            numbers.extend(rounding.round(&known, errors));
+        }
     }
     record
+}
+
+/// The nearest number; one that is too large in place of a missing value.
+fn whole(value: f64) -> i64 {
+    if value.is_nan() { i64::MAX } else { value.round() as i64 }
 }

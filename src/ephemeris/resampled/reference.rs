@@ -7,11 +7,11 @@ use super::header::{Fields, Writer};
 use crate::ephemeris::orientation::Nutation;
 use crate::ephemeris::polynomial::polynomial;
 use crate::time::{JulianDate, Tdb};
-use crate::units::Angle;
 
-/// Obliquity of the ecliptic J2000.0, arcseconds (IAU 2006). It tilts the reference alone: another
-/// value would change the residuals, not their sum.
-const OBLIQUITY_J2000_ARCSEC: f64 = 84_381.406;
+/// Sine and cosine of the obliquity of the ecliptic J2000.0, 84381.406" (IAU 2006). It tilts the
+/// reference alone: another value would change the residuals, not their sum.
+const OBLIQUITY_SIN: f64 = 0.397776969112606;
+const OBLIQUITY_COS: f64 = 0.9174821430652418;
 
 /// Coefficients of the powers of Julian centuries from J2000.0.
 pub type Powers = [f64; 4];
@@ -141,12 +141,17 @@ impl Orbit {
         let (q, p) = turned(q0, p0, node_turn);
 
         // Kepler's equation for the eccentric longitude F = E + ϖ: λ = F - k sin F + h cos F.
-        // Newton's method; five steps reach the last digit for eccentricities up to 0.3.
-        let mut eccentric = longitude;
-        for _ in 0..5 {
+        // Newton's method doubles the digits with every step; eccentricities are below 0.3.
+        let (sin, cos) = longitude.sin_cos();
+        let mut eccentric = longitude + k * sin - h * cos;
+        for _ in 0..10 {
             let (sin, cos) = eccentric.sin_cos();
             let excess = eccentric - k * sin + h * cos - longitude;
-            eccentric -= excess / (1.0 - k * cos - h * sin);
+            let step = excess / (1.0 - k * cos - h * sin);
+            eccentric -= step;
+            if step.abs() < 1e-8 {
+                break;
+            }
         }
         let (sin, cos) = eccentric.sin_cos();
         let beta = 1.0 / (1.0 + (1.0 - h * h - k * k).sqrt());
@@ -157,9 +162,9 @@ impl Orbit {
         let root = (1.0 - p * p - q * q).sqrt();
         let first = DVec3::new(1.0 - 2.0 * p * p, 2.0 * p * q, -2.0 * p * root);
         let second = DVec3::new(2.0 * p * q, 1.0 - 2.0 * q * q, 2.0 * q * root);
-        let (sin_tilt, cos_tilt) = Angle::from_arcsec(OBLIQUITY_J2000_ARCSEC).sin_cos();
         let equatorial = |v: DVec3| {
-            DVec3::new(v.x, cos_tilt * v.y - sin_tilt * v.z, sin_tilt * v.y + cos_tilt * v.z)
+            let (sin, cos) = (OBLIQUITY_SIN, OBLIQUITY_COS);
+            DVec3::new(v.x, cos * v.y - sin * v.z, sin * v.y + cos * v.z)
         };
         let origin = equatorial(x * first + y * second);
         let radial = origin.normalize();
@@ -171,7 +176,7 @@ impl Orbit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::AU_KM;
+    use crate::units::{AU_KM, Angle};
 
     fn mercury() -> Orbit {
         // Simon et al. 1994, table 6, rounded.
@@ -233,7 +238,7 @@ mod tests {
         let flat =
             DVec3::new(a * (anomaly.cos() - e), a * (1.0 - e * e).sqrt() * anomaly.sin(), 0.0);
         let turn = |rad: f64| Angle::from_rad(-rad);
-        turn_axes_x(Angle::from_arcsec(-OBLIQUITY_J2000_ARCSEC))
+        turn_axes_x(Angle::from_arcsec(-84_381.406))
             * turn_axes_z(turn(node))
             * turn_axes_x(turn(tilt))
             * turn_axes_z(turn(perihelion - node))

@@ -1,7 +1,7 @@
 //! Numbers with a fixed count of decimals, exact to the last digit and without floating point.
 //!
 //! An `f64` is an integer times a power of two. Times ten to the count of decimals, it is shifted to
-//! an integer and rounded, ties to even, as `format!("{:.9}")` does it in four times as long.
+//! an integer and rounded, ties to even: the digits of `format!("{:.9}")`.
 
 use std::io::Write;
 
