@@ -162,6 +162,17 @@ pub enum AlmanacError {
     DarkLimit { deg: f64 },
 }
 
+/// Each of a list once, however often it was named.
+fn once<T: Clone + PartialEq>(list: &[T]) -> Vec<T> {
+    let mut known = Vec::new();
+    for item in list {
+        if !known.contains(item) {
+            known.push(item.clone());
+        }
+    }
+    known
+}
+
 impl From<EclipseError> for AlmanacError {
     fn from(error: EclipseError) -> AlmanacError {
         match error {
@@ -227,7 +238,9 @@ impl Almanac {
         place: Option<&Place>,
         request: Request,
     ) -> Result<Almanac, AlmanacError> {
-        let Request { classes, bodies, stars, met_stars, limits, nearer_than, tolerance } = request;
+        let Request { classes, limits, nearer_than, tolerance, .. } = request;
+        let bodies = once(&request.bodies);
+        let [stars, met_stars] = [&request.stars, &request.met_stars].map(|stars| once(stars));
         let skyline_deg = limits.skyline.deg();
         if !limits::SKYLINE_RANGE_DEG.contains(&skyline_deg) {
             return Err(AlmanacError::Skyline { deg: skyline_deg });

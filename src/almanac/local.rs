@@ -124,7 +124,7 @@ impl LocalSearch {
     pub fn run(&self, theory: &Theory, stretch: &Stretch) -> Result<LocalFound, AlmanacError> {
         let sought = vec![Sought::Zero; self.wanted.len()];
         let sample = |instant: &Instant| {
-            let seen = theory.from_place(instant, &self.place, &self.targets)?;
+            let seen = theory.seen_from_place(instant, &self.place, &self.targets)?;
             let value = |&Wanted { function, target, .. }: &Wanted| {
                 self.value(function, &self.targets[target], &seen[target])
             };
@@ -146,7 +146,7 @@ impl LocalSearch {
     ) -> Result<bool, AlmanacError> {
         let function = if light == Body::Sun { Function::Darkness } else { Function::Horizon };
         let target = Target::Body(light);
-        let seen = theory.from_place(instant, &self.place, std::slice::from_ref(&target))?;
+        let seen = theory.seen_from_place(instant, &self.place, std::slice::from_ref(&target))?;
         Ok(self.value(function, &target, &seen[0]) >= 0.0)
     }
 
@@ -175,7 +175,8 @@ impl LocalSearch {
     ) -> Result<(), AlmanacError> {
         let Wanted { function, target, is_listed } = self.wanted[found.function];
         let target = &self.targets[target];
-        let seen = theory.from_place(&found.instant, &self.place, std::slice::from_ref(target))?[0];
+        let seen =
+            theory.seen_from_place(&found.instant, &self.place, std::slice::from_ref(target))?[0];
         let correction_s = -self.value(function, target, &seen) / found.slope_per_day * DAY_S;
         let instant = if correction_s.abs() < CORRECTION_MAX_S {
             found.instant.plus_seconds(correction_s)?

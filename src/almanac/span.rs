@@ -135,7 +135,7 @@ impl<S: Fn(&Instant) -> Result<Vec<f64>, AlmanacError>> Search<'_, S> {
             let (curve, ends) = match self.sought[function] {
                 Sought::Zero => (polynomial, [values[function][0], values[function][POINTS - 1]]),
                 Sought::Extremum => {
-                    derivative = polynomial.derivative();
+                    derivative = polynomial.without_noise().derivative();
                     if slopes.is_none() {
                         slopes = Some([self.slopes_at(a), self.slopes_at(b)]);
                     }

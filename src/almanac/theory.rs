@@ -45,7 +45,7 @@ impl Theory {
     }
 
     /// What a place sees of some targets.
-    pub fn from_place(
+    pub fn seen_from_place(
         &self,
         instant: &Instant,
         place: &Place,
@@ -70,7 +70,7 @@ impl Theory {
     }
 
     /// Where some targets are seen from the centre of the Earth.
-    pub fn from_earth(
+    pub fn seen_from_earth(
         &self,
         instant: &Instant,
         targets: &[Target],

@@ -15,7 +15,7 @@ const TABLE: &str = include_str!("../truth/almanac_geocentric.csv");
 
 /// What the almanac and the table may add to the error of the ephemeris: zeros and extrema.
 const ZERO_ERROR_S: f64 = 0.5;
-const EXTREMUM_ERROR_S: f64 = 30.0;
+const EXTREMUM_ERROR_S: f64 = 15.0;
 /// What takes the place of a speed for extrema: 14" of the Sun shift a perihelion by five hours.
 const SLOPE_ARCSEC_S: f64 = 0.0008;
 
