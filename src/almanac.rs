@@ -25,19 +25,24 @@
 //! # Method
 //!
 //! Every event is a zero or an extremum of a smooth function of time. On spans of days each function
-//! is replaced by a polynomial that follows it within 0.01" ([`chebyshev`]), and all zeros of that are
-//! found ([`crossing`]): whether the Sun grazes the horizon of a polar summer, sets twice in one day of
+//! is replaced by a polynomial that follows it within 0.01" (`chebyshev`), and all zeros of that are
+//! found (`crossing`): whether the Sun grazes the horizon of a polar summer, sets twice in one day of
 //! the clock, or not for months, is settled by bounds and not by luck with a step. The exact theory
 //! then corrects each instant. An event belongs to the time that is asked for from its beginning
 //! up to, not with, its end.
 //!
 //! # Accuracy
 //!
-//! The search adds less than a millisecond to what the ephemeris errs: an error of 1" in the
-//! altitude is 0.07 s at the equator and more where bodies rise at a slant. Instants that are kept in
-//! universal time share the error of Delta-T ([`delta_t_error_s`]): phases and seasons
-//! by all of it, rise and set by as much as the body moves among the stars meanwhile (1/365 of it for
-//! the Sun, 1/27 for the Moon).
+//! What the search adds to the errors of the ephemeris, as `tests/almanac.rs` measures it with the
+//! tables of DE440 against brute force with the same ephemeris: 0.02 s in rise, set, transit and
+//! twilight (at the poles, in polar summers and where the Sun grazes the horizon, too), 0.01 s in phases,
+//! seasons and meetings with the Sun, 0.2 s in the slowest conjunctions, seconds in the ends of orbits
+//! and in nearest approaches, where a metre shifts the moment by as much.
+//!
+//! An error of 1" in the ephemeris is 0.07 s of rise and set at the equator, more where bodies rise at
+//! a slant, and 2 s in phases of the Moon. Instants that are kept in universal time share the error of
+//! Delta-T ([`delta_t_error_s`]): phases and seasons all of it, rise and set as much as the body
+//! moves among the stars meanwhile (1/365 of it for the Sun, 1/27 for the Moon).
 
 mod certainty;
 mod chebyshev;
@@ -157,6 +162,17 @@ pub enum AlmanacError {
     DarkLimit { deg: f64 },
 }
 
+/// Each of a list once, however often it was named.
+fn once<T: Clone + PartialEq>(list: &[T]) -> Vec<T> {
+    let mut known = Vec::new();
+    for item in list {
+        if !known.contains(item) {
+            known.push(item.clone());
+        }
+    }
+    known
+}
+
 impl From<EclipseError> for AlmanacError {
     fn from(error: EclipseError) -> AlmanacError {
         match error {
@@ -222,7 +238,9 @@ impl Almanac {
         place: Option<&Place>,
         request: Request,
     ) -> Result<Almanac, AlmanacError> {
-        let Request { classes, bodies, stars, met_stars, limits, nearer_than, tolerance } = request;
+        let Request { classes, limits, nearer_than, tolerance, .. } = request;
+        let bodies = once(&request.bodies);
+        let [stars, met_stars] = [&request.stars, &request.met_stars].map(|stars| once(stars));
         let skyline_deg = limits.skyline.deg();
         if !limits::SKYLINE_RANGE_DEG.contains(&skyline_deg) {
             return Err(AlmanacError::Skyline { deg: skyline_deg });

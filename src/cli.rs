@@ -50,10 +50,10 @@ enum Command {
     Place(place::PlaceArgs),
     /// List the Sun, the Moon, planets and stars: where they stand and how bright they are
     Objects(objects::ObjectsArgs),
-    /// Write tables of where bodies and stars are seen, of any length
-    Ephemeris(ephemeris::EphemerisArgs),
     /// List what happens in the sky: rise and set, twilight, phases, meetings, dark nights
     Almanac(almanac::AlmanacArgs),
+    /// Write tables of where bodies and stars are seen, of any length
+    Ephemeris(ephemeris::EphemerisArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -140,8 +140,8 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Render(args) => render::run(args, &catalogs, out),
         Command::Place(args) => place::run(args, &catalogs, out),
         Command::Objects(args) => objects::run(args, &catalogs, out),
-        Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
         Command::Almanac(args) => almanac::run(args, &catalogs, out),
+        Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
         #[cfg(feature = "gpu")]
         Command::Adapter => Ok(()),
     }

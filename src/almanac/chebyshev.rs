@@ -14,6 +14,9 @@ pub const DEGREE: usize = 24;
 /// Values that one takes.
 pub const POINTS: usize = DEGREE + 1;
 
+/// The last coefficients, from which the size of the noise is taken.
+const NOISE_COEFFICIENTS: usize = 6;
+
 type Coefficients = [f64; POINTS];
 
 /// Where in `[-1, 1]` the values are taken, upwards.
@@ -45,6 +48,23 @@ impl Polynomial {
     pub fn through(values: &Coefficients) -> Polynomial {
         let sum = |row: &Coefficients| row.iter().zip(values).map(|(a, b)| a * b).sum();
         let value: Coefficients = std::array::from_fn(|j| sum(&TRANSFORM[j]));
+        Polynomial { slope: differentiated(&value), value }
+    }
+
+    /// The straight line between values at -1 and 1.
+    pub fn between(first: f64, last: f64) -> Polynomial {
+        Polynomial::through(&NODES.map(|x| 0.5 * (first * (1.0 - x) + last * (1.0 + x))))
+    }
+
+    /// Without the coefficients at the end that are noise of the values, a step of a table or rounding:
+    /// slopes would magnify it by the square of their degree.
+    pub fn without_noise(&self) -> Polynomial {
+        let last = &self.value[POINTS - NOISE_COEFFICIENTS..];
+        let noise = 2.0 * last.iter().fold(0.0f64, |most, c| most.max(c.abs()));
+        let mut value = self.value;
+        for c in value.iter_mut().rev().take_while(|c| c.abs() <= noise) {
+            *c = 0.0;
+        }
         Polynomial { slope: differentiated(&value), value }
     }
 
@@ -114,6 +134,22 @@ mod tests {
             assert!((slope - 6.0 * cos).abs() < 1e-9 && same == slope, "{x}");
             assert!((bend + 36.0 * sin).abs() < 1e-6 && bend.abs() <= p.bend_bound(), "{x}");
         }
+    }
+
+    #[test]
+    fn slopes_do_not_follow_noise() {
+        let noise = |x: f64| 1e-6 * (1e5 * x * x).sin();
+        let noisy = of(|x| x.cos() + noise(x));
+        let worst = |p: &Polynomial| {
+            let error = |k: i32| {
+                let x = f64::from(k) / 100.0;
+                (p.at(x).1 + x.sin()).abs()
+            };
+            (-100..=100).map(error).fold(0.0, f64::max)
+        };
+        assert!(worst(&noisy.without_noise()) < 0.2 * worst(&noisy));
+        let smooth = of(f64::cos);
+        assert!(worst(&smooth.without_noise()) < 1e-10);
     }
 
     #[test]

@@ -116,7 +116,7 @@ pub enum What {
         contact: Contact,
         view: Option<View>,
     },
-    /// Sun and Moon both stay down until `end`.
+    /// Sun and Moon both stay down until `end`; cut where the time asked for begins or ends.
     Dark {
         end: Instant,
     },

@@ -59,65 +59,70 @@ pub struct GeocentricSearch {
 
 const SUN: usize = 0;
 const MOON: usize = 1;
+const FIRST_PLANET: usize = 2;
+
+/// Classes that ask for more than the Sun and the Moon.
+const MEETINGS: [Class; 5] = [
+    Class::Conjunction,
+    Class::LongitudeConjunction,
+    Class::Opposition,
+    Class::Elongation,
+    Class::Appulse,
+];
 
 impl GeocentricSearch {
     /// `bodies` and `stars` are those whose meetings are asked for; stars meet bodies alone. Of
     /// nearest approaches those closer than `nearer_than` are noted.
     pub fn new(classes: &[Class], bodies: &[Body], stars: &[Target], nearer_than: Angle) -> Self {
-        let has = |class: Class| classes.contains(&class);
-        let mut targets = vec![Target::Body(Body::Sun), Target::Body(Body::Moon)];
-        let mut functions = Vec::new();
-        if has(Class::Phase) {
-            functions.extend([Function::Syzygy, Function::Quadrature]);
+        let mut search = GeocentricSearch {
+            classes: classes.to_vec(),
+            targets: vec![Target::Body(Body::Sun), Target::Body(Body::Moon)],
+            functions: Vec::new(),
+            nearer_than,
+        };
+        if search.has(Class::Phase) {
+            search.functions.extend([Function::Syzygy, Function::Quadrature]);
         }
-        if has(Class::Season) {
-            functions.extend([Function::Equinox, Function::Solstice]);
+        if search.has(Class::Season) {
+            search.functions.extend([Function::Equinox, Function::Solstice]);
         }
-        if has(Class::Apsis) {
-            functions.extend([Function::Distance(Body::Sun), Function::Distance(Body::Moon)]);
+        if search.has(Class::Apsis) {
+            search.functions.extend([Body::Sun, Body::Moon].map(Function::Distance));
         }
-        let has_meetings = [
-            Class::Conjunction,
-            Class::LongitudeConjunction,
-            Class::Opposition,
-            Class::Elongation,
-            Class::Appulse,
-        ]
-        .into_iter()
-        .any(has);
-        if !has_meetings {
-            return GeocentricSearch { classes: classes.to_vec(), targets, functions, nearer_than };
+        if MEETINGS.iter().any(|class| search.has(*class)) {
+            search.add_meetings(bodies, stars);
         }
+        search
+    }
 
+    fn add_meetings(&mut self, bodies: &[Body], stars: &[Target]) {
         let is_planet = |body: &&Body| !matches!(body, Body::Sun | Body::Moon);
-        let first_planet = targets.len();
-        targets.extend(bodies.iter().filter(is_planet).map(|body| Target::Body(*body)));
-        let first_star = targets.len();
-        targets.extend(stars.iter().cloned());
-        let planets = targets.iter().enumerate().take(first_star).skip(first_planet);
-        for (planet, target) in planets {
-            if has(Class::Conjunction) || has(Class::Opposition) {
-                functions.push(Function::Line(planet, SUN, Coordinate::EclipticLongitude));
+        self.targets.extend(bodies.iter().filter(is_planet).map(|body| Target::Body(*body)));
+        let planets = FIRST_PLANET..self.targets.len();
+        self.targets.extend_from_slice(stars);
+        for planet in planets.clone() {
+            if self.has(Class::Conjunction) || self.has(Class::Opposition) {
+                self.functions.push(Function::Line(planet, SUN, Coordinate::EclipticLongitude));
             }
-            if has(Class::Elongation) && is_inner(target) {
-                functions.push(Function::Elongation(planet));
+            if self.has(Class::Elongation) && is_inner(&self.targets[planet]) {
+                self.functions.push(Function::Elongation(planet));
             }
         }
-        let moon = if bodies.contains(&Body::Moon) { MOON } else { first_planet };
-        for first in moon..first_star {
-            for second in first + 1..targets.len() {
-                if has(Class::Conjunction) {
-                    functions.push(Function::Line(first, second, Coordinate::RightAscension));
+        let wanderers = if bodies.contains(&Body::Moon) { MOON } else { FIRST_PLANET }..planets.end;
+        for first in wanderers {
+            for second in first + 1..self.targets.len() {
+                if self.has(Class::Conjunction) {
+                    self.functions.push(Function::Line(first, second, Coordinate::RightAscension));
                 }
-                if has(Class::LongitudeConjunction) {
-                    functions.push(Function::Line(first, second, Coordinate::EclipticLongitude));
+                if self.has(Class::LongitudeConjunction) {
+                    let line = Function::Line(first, second, Coordinate::EclipticLongitude);
+                    self.functions.push(line);
                 }
-                if has(Class::Appulse) {
-                    functions.push(Function::Nearness(first, second));
+                if self.has(Class::Appulse) {
+                    self.functions.push(Function::Nearness(first, second));
                 }
             }
         }
-        GeocentricSearch { classes: classes.to_vec(), targets, functions, nearer_than }
     }
 
     fn has(&self, class: Class) -> bool {

@@ -1,7 +1,7 @@
 //! Looking through a stretch of time for the events of many functions at once.
 //!
 //! The stretch is cut into spans. On each of them every function is sampled at the same instants and
-//! replaced by a polynomial ([`super::chebyshev`]), all of whose zeros are found ([`super::crossing`]).
+//! replaced by a polynomial (`chebyshev`), all of whose zeros are found (`crossing`).
 //! Where a polynomial does not follow its function the span is halved. Sampling is the whole cost,
 //! and one sample serves all functions.
 
@@ -117,11 +117,17 @@ impl<S: Fn(&Instant) -> Result<Vec<f64>, AlmanacError>> Search<'_, S> {
                 values[k] = value;
             }
         }
-        let polynomials: Vec<Polynomial> = values.iter().map(Polynomial::through).collect();
-        let is_close = polynomials.iter().all(|polynomial| polynomial.tail() < MISFIT);
-        if !is_close && 2.0 * half > SHORTEST_DAYS {
-            self.span(a, middle, found)?;
-            return self.span(middle, b, found);
+        let mut polynomials: Vec<Polynomial> = values.iter().map(Polynomial::through).collect();
+        let is_close = |polynomial: &Polynomial| polynomial.tail() < MISFIT;
+        if !polynomials.iter().all(is_close) {
+            if 2.0 * half > SHORTEST_DAYS {
+                self.span(a, middle, found)?;
+                return self.span(middle, b, found);
+            }
+            // A polynomial would swing about the step: a straight line crosses once or not at all.
+            for (polynomial, values) in polynomials.iter_mut().zip(&values) {
+                *polynomial = Polynomial::between(values[0], values[POINTS - 1]);
+            }
         }
         let mut slopes = None;
         for (function, polynomial) in polynomials.iter().enumerate() {
@@ -129,7 +135,7 @@ impl<S: Fn(&Instant) -> Result<Vec<f64>, AlmanacError>> Search<'_, S> {
             let (curve, ends) = match self.sought[function] {
                 Sought::Zero => (polynomial, [values[function][0], values[function][POINTS - 1]]),
                 Sought::Extremum => {
-                    derivative = polynomial.derivative();
+                    derivative = polynomial.without_noise().derivative();
                     if slopes.is_none() {
                         slopes = Some([self.slopes_at(a), self.slopes_at(b)]);
                     }

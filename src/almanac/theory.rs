@@ -78,9 +78,10 @@ impl Theory {
         let mut observation = Observation::at(&self.ephemeris, instant, &self.pole, self.tolerance);
         let observer = *observation.observer();
         let axes = observer.orientation;
+        let ecliptic_from_true =
+            axes.ecliptic_from_mean * axes.mean_from_icrs * observer.true_from_icrs.inverse();
         let of_date = |equatorial: Dir<TrueOfDate>, distance_km: f64| {
-            let mean = axes.mean_from_icrs * axes.true_from_icrs.inverse() * equatorial;
-            let ecliptic = axes.ecliptic_from_mean * mean;
+            let ecliptic = ecliptic_from_true * equatorial;
             let longitude = ecliptic.longitude() + axes.nutation.longitude;
             FromEarth { equatorial, ecliptic, longitude, distance_km }
         };

@@ -96,17 +96,48 @@ pub fn run(args: &AlmanacArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
     };
     let Some(path) = &args.output else {
         let is_quiet = args.quiet || io::stdout().is_terminal();
-        return write(&almanac, &heading, sheet, &bar(is_quiet), out);
+        return Ok(write(&almanac, &heading, sheet, &bar(is_quiet), out)?);
     };
     let file = OutputFile::create(path)?;
-    let mut failure = None;
+    let mut unfinished = None;
     let written = file.write(|file| {
-        write(&almanac, &heading, sheet, &bar(args.quiet), file).map_err(|error| {
-            failure = Some(error);
-            io::Error::other("the almanac is not complete")
+        write(&almanac, &heading, sheet, &bar(args.quiet), file).map_err(|stop| match stop {
+            Stop::Writing(error) => error,
+            Stop::Almanac(error) => {
+                unfinished = Some(error);
+                io::Error::other("the almanac is not complete")
+            }
         })
     });
-    failure.map_or_else(|| written.map_err(CliError::from), Err)
+    unfinished.map_or_else(|| written.map_err(CliError::from), |error| Err(name_option(error)))
+}
+
+/// Why an almanac was not written to its end.
+enum Stop {
+    Almanac(AlmanacError),
+    Writing(io::Error),
+}
+
+impl From<AlmanacError> for Stop {
+    fn from(error: AlmanacError) -> Stop {
+        Stop::Almanac(error)
+    }
+}
+
+impl From<io::Error> for Stop {
+    fn from(error: io::Error) -> Stop {
+        Stop::Writing(error)
+    }
+}
+
+/// To standard output.
+impl From<Stop> for CliError {
+    fn from(stop: Stop) -> CliError {
+        match stop {
+            Stop::Almanac(error) => name_option(error),
+            Stop::Writing(error) => error.into(),
+        }
+    }
 }
 
 /// Writes events as they are found.
@@ -116,8 +147,8 @@ fn write(
     mut sheet: Box<dyn Sheet>,
     bar: &ProgressBar,
     out: &mut dyn Write,
-) -> Result<(), CliError> {
-    let mut events = almanac.events(&heading.from, &heading.to).map_err(name_option)?;
+) -> Result<(), Stop> {
+    let mut events = almanac.events(&heading.from, &heading.to)?;
     sheet.begin(heading, out)?;
     while let Some(event) = events.next() {
         sheet.event(heading, &event?, out)?;

@@ -16,7 +16,7 @@ pub const TOLERANCE: Angle = Angle::from_arcsec(0.002);
 /// With the tables that are shipped.
 pub fn ephemeris() -> Ephemeris {
     let catalogs = Catalogs::locate(None).expect("the catalogues");
-    Ephemeris::load(&catalogs, Angle::from_arcsec(0.001)).expect("sound tables")
+    Ephemeris::load(&catalogs, TOLERANCE).expect("sound tables")
 }
 
 /// The rows of a table with named columns.
@@ -98,12 +98,13 @@ pub fn overtaking_arcsec_s(
     let at = |offset_s: f64| {
         let instant = instant.plus_seconds(offset_s).expect("in range");
         let mut observation = Observation::at(ephemeris, &instant, &anywhere, TOLERANCE);
-        let axes = observation.observer().orientation;
+        let observer = *observation.observer();
+        let axes = observer.orientation;
+        let mean_from_true = axes.mean_from_icrs * observer.true_from_icrs.inverse();
         let [first, second] = bodies.map(|body| {
             let dir = observation.seen(body).expect("in range").place.geocentric;
             if is_ecliptic {
-                let ecliptic: Dir<_> = axes.ecliptic_from_mean
-                    * (axes.mean_from_icrs * axes.true_from_icrs.inverse() * dir);
+                let ecliptic: Dir<_> = axes.ecliptic_from_mean * (mean_from_true * dir);
                 ecliptic.longitude()
             } else {
                 dir.longitude()

@@ -59,9 +59,9 @@ def zeros(f, start, days, step):
 
 
 def extrema(f, start, days, step):
-    """All extrema: zeros of a central difference over two hours, whose bias is below a second."""
+    """All extrema: zeros of the central difference with five points, an hour apart."""
     h = 1.0 / 24.0
-    return zeros(lambda t: f(t + h) - f(t - h), start, days, step)
+    return zeros(lambda t: 8 * (f(t + h) - f(t - h)) - (f(t + 2 * h) - f(t - 2 * h)), start, days, step)
 
 
 # --- Places ---------------------------------------------------------------------------------------

@@ -46,7 +46,7 @@ impl Heading {
         let error_s = delta_t_error_s(&from).max(delta_t_error_s(&to));
         let accuracy = vec![
             format!(
-                "positions are within {sun:.2}\" (Sun) and {moon:.2}\" (Moon): {:.2} s and {:.2} s in rise and set at the equator, {:.1} s in phases",
+                "positions are within {sun:.3}\" (Sun) and {moon:.3}\" (Moon): {:.4} s and {:.4} s in rise and set at the equator, {:.3} s in phases",
                 sun / SKY_ARCSEC_S,
                 moon / SKY_ARCSEC_S,
                 (sun + moon) / MOON_ARCSEC_S

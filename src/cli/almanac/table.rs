@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use crate::almanac::eclipse::LunarKind;
 use crate::almanac::{Event, What};
 use crate::cli::look::wind;
 use crate::time::{CivilDateTime, Instant};
@@ -61,6 +62,9 @@ pub fn details(heading: &Heading, event: &Event) -> String {
             format!("{:.7} au", distance_km / AU_KM)
         }
         What::Apsis { distance_km, .. } => format!("{distance_km:.0} km"),
+        What::LunarEclipse { kind: LunarKind::Penumbral, penumbral_magnitude, .. } => {
+            format!("penumbral magnitude {penumbral_magnitude:.4}{}", stands(&event.what))
+        }
         What::LunarEclipse { umbral_magnitude, penumbral_magnitude, .. } => format!(
             "magnitude {umbral_magnitude:.4}, penumbral {penumbral_magnitude:.4}{}",
             stands(&event.what)
