@@ -76,6 +76,20 @@ fn the_axes_are_those_of_de421_by_table_and_by_series() {
 }
 
 #[test]
+fn the_series_stay_near_the_table_all_over_its_span() {
+    let (table, series) = (with_table(), MoonOrientation::series());
+    let mut worst = Angle::ZERO;
+    for step in 0..15_000 {
+        let tdb = JulianDate::from_jd(FIRST_JD + (LAST_JD - FIRST_JD) * f64::from(step) / 15_000.0);
+        let off = between(series.moon_fixed_from_icrs(tdb), table.moon_fixed_from_icrs(tdb));
+        assert!(off < series.bound(tdb).unwrap(), "{tdb:?}: {off:?}");
+        worst = worst.max(off);
+    }
+    println!("series against table: {:.5} degrees", worst.deg());
+    assert!(worst.deg() > 0.0015);
+}
+
+#[test]
 fn librations_axis_and_phase_are_those_of_the_table() {
     let orientation = with_table();
     let (columns, rows) = rows(PHYSICAL);

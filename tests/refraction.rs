@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use nocturne::air::refraction::{ObserverAir, Refraction, Traced};
 use nocturne::air::standard::{number_density_per_m3, standard_pressure_mbar};
 use nocturne::air::{AIR_TOP_KM, AirError, EARTH_RADIUS_KM};
+use nocturne::frame::{Dir, Horizon};
 use nocturne::units::Angle;
 
 const TRUTH: &str = include_str!("truth/refraction.csv");
@@ -181,23 +182,41 @@ fn rays_that_dip_below_the_horizontal_bend_as_stepping_along_them_does() {
 
 #[test]
 fn true_and_apparent_invert_each_other_for_every_air() {
-    for air in airs() {
-        let refraction = Refraction::traced(&air).unwrap();
+    let formulas = [(0.0, 15.0), (700.0, -20.0), (1010.0, 10.0), (1100.0, -90.0)];
+    let formulas = formulas.map(|(mbar, celsius)| Refraction::new(mbar, celsius));
+    let rays = airs().into_iter().map(|air| Refraction::traced(&air).expect("air that can be"));
+    for refraction in formulas.into_iter().chain(rays) {
         let mut before_deg = f64::NEG_INFINITY;
         for step in -90_000..=90_000 {
             let altitude = Angle::from_deg(f64::from(step) / 1000.0);
             let stands = refraction.true_from_apparent(altitude);
-            assert!(stands.deg() > before_deg, "{air:?}: order is lost at {}°", altitude.deg());
+            assert!(stands.deg() > before_deg, "order is lost at {}°", altitude.deg());
             before_deg = stands.deg();
             let back = refraction.apparent_from_true(stands);
-            assert!((back - altitude).deg().abs() < 1e-9, "{air:?}: {}°", altitude.deg());
+            assert!((back - altitude).deg().abs() < 1e-9, "{}°", altitude.deg());
             let seen = refraction.apparent_from_true(altitude);
             let back = refraction.true_from_apparent(seen);
-            assert!((back - altitude).deg().abs() < 1e-9, "{air:?}: {}°", altitude.deg());
+            assert!((back - altitude).deg().abs() < 1e-9, "{}°", altitude.deg());
         }
         let zenith = refraction.at_apparent_altitude(Angle::from_deg(90.0));
         assert!(zenith.abs().rad() < 1e-15, "{zenith:?}");
     }
+}
+
+#[test]
+fn directions_keep_their_azimuth_and_come_back() {
+    for refraction in [Refraction::new(1010.0, 10.0), Refraction::traced(&PULKOVO).unwrap()] {
+        let dir = Dir::from_azimuth_altitude(Angle::from_deg(211.0), Angle::from_deg(-0.4));
+        let seen = refraction.apparent_from_horizon(dir);
+        assert!((seen.azimuth().deg() - 211.0).abs() < 1e-10);
+        assert!(seen.altitude().deg() > 0.0, "refraction lifts it above the horizon");
+        let back = refraction.horizon_from_apparent(seen);
+        assert!(back.separation(dir).deg() < 1e-10);
+        let zenith = Dir::<Horizon>::from_vector(DVec3::Z);
+        assert!((refraction.apparent_from_horizon(zenith).vector().z - 1.0).abs() < 1e-15);
+    }
+    let none = Refraction::default().apparent_from_true(Angle::from_deg(0.3));
+    assert!((none.deg() - 0.3).abs() < 1e-12);
 }
 
 #[test]

@@ -31,7 +31,6 @@ use crate::time::{JulianDate, Tdb};
 use crate::units::Angle;
 
 pub use physical::{Libration, MoonFace, MoonPhysical, axis_position_angle};
-pub use series::EQUATOR_INCLINATION;
 pub use table::{PackedLibrations, pack};
 
 /// Name of the file with the integrated librations among the catalogues.

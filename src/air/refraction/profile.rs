@@ -48,7 +48,7 @@ pub(super) struct Profile {
     share: f64,
 }
 
-/// What the closed form of the pressure asks for (Hohenkerk & Sinclair 1985, eq. 13).
+/// What the closed form of the pressure asks for (Hohenkerk & Sinclair 1985).
 struct Troposphere {
     observer_k: f64,
     observer_mbar: f64,

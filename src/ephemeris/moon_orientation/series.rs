@@ -20,9 +20,9 @@
 //!   times period over a full turn). The period of the pole is what Cassini's laws give: the forced tilt
 //!   of 1.542 degrees against 5.145 of the orbit.
 //!
-//! *Accuracy.* Within 0.0018 degrees of the integrated librations of DE421 in 1900-2200 (0.0065 without
-//! what is added); nothing was fitted to them. Elsewhere there is nothing to compare with. The mean
-//! longitude and the node are those of the series of the Moon, and err as it does.
+//! *Accuracy.* Within 0.0018 degrees of the integrated librations of DE421 in 1900-2200; nothing
+//! was fitted to them. Elsewhere there is nothing to compare with. The mean longitude and the node are
+//! those of the series of the Moon, and err as it does.
 
 use super::super::moon::Arguments;
 use super::super::orientation;
@@ -31,7 +31,7 @@ use crate::time::{JulianDate, Tdb};
 use crate::units::Angle;
 
 /// Inclination of the mean lunar equator to the ecliptic (Eckhardt 1981; Meeus 1998, p. 372).
-pub const EQUATOR_INCLINATION: Angle = Angle::from_deg(1.542_42);
+const EQUATOR_INCLINATION: Angle = Angle::from_deg(1.542_42);
 
 /// Eckhardt's physical libration: of the inclination, of the node times the sine of the
 /// inclination, and in longitude.
