@@ -119,7 +119,7 @@ fn moon_without_air() -> &'static str {
 fn copied(run: Nocturne) -> Nocturne {
     let from = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("catalogs");
     fs::create_dir(run.path("copy")).unwrap();
-    for file in FILES.map(OsStr::new) {
+    for file in FILES.iter().chain(&["hipparcos.csv"]).map(OsStr::new) {
         fs::copy(from.join(file), run.path("copy").join(file)).unwrap();
     }
     run
