@@ -107,10 +107,12 @@ impl ApparentPlace {
         // The Sun drifts at 16 m/s: while light crosses the orbit of the Earth it is taken to stand.
         let earth_from_sun = (earth.position - earth.sun).km();
         let observer_from_sun = earth_from_sun + observer.position.km();
+        let from_sun = moved - earth.sun;
+        let source = from_sun.dir();
         let seen = |from: Pos<Icrs>, origin_from_sun: DVec3, velocity_km_s: DVec3| {
             let dir = match body {
                 Body::Sun => from.dir(),
-                _ => deflect(from.dir(), (moved - earth.sun).dir(), origin_from_sun),
+                _ => deflect(from.dir(), source, origin_from_sun),
             };
             aberrate(dir, velocity_km_s)
         };
@@ -125,7 +127,7 @@ impl ApparentPlace {
             horizon: observer.horizon_from_icrs * topocentric,
             from_observer,
             from_earth,
-            from_sun: moved - earth.sun,
+            from_sun,
         })
     }
 }
