@@ -84,7 +84,12 @@ impl Angle {
     }
     /// The same direction in `[0, 2 pi)`.
     pub fn positive(self) -> Self {
-        let rad = self.rad.rem_euclid(TAU);
+        // Most angles are within a turn: a division would cost more than all the rest.
+        let rad = match self.rad {
+            rad if (0.0..TAU).contains(&rad) => return self,
+            rad if (-TAU..0.0).contains(&rad) => rad + TAU,
+            rad => rad.rem_euclid(TAU),
+        };
         // rem_euclid rounds a tiny negative angle up to the full turn itself.
         Angle { rad: if rad >= TAU { 0.0 } else { rad } }
     }

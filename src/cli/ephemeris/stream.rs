@@ -9,7 +9,7 @@ use crate::cli::error::CliError;
 use crate::export::table::{Part, Sheet, TableWriter};
 
 /// Blocks of work for each thread in a batch: enough that none waits long for the others.
-const BLOCKS_PER_THREAD: usize = 8;
+const BLOCKS_PER_THREAD: usize = 32;
 
 /// Why a table was not finished.
 #[derive(Debug)]

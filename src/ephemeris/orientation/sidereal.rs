@@ -37,11 +37,9 @@ const ORIGIN_ARCSEC: [f64; 2] = [0.014_506, -0.003_808_65];
 /// The Earth rotation angle, in `[0, 2 pi)`: Capitaine, Guinot & McCarthy 2000, eq. 14 (exact by
 /// definition of UT1).
 pub fn earth_rotation_angle(ut1: JulianDate<Ut1>) -> Angle {
-    // Whole turns are taken away before they cost digits.
-    let turns = ut1.day().rem_euclid(1.0)
-        + ut1.fraction()
-        + 0.779_057_273_264_0
-        + 0.002_737_811_911_354_48 * ut1.days_since_j2000();
+    // The day is whole: its turns are left out before they cost digits.
+    let turns =
+        ut1.fraction() + 0.779_057_273_264_0 + 0.002_737_811_911_354_48 * ut1.days_since_j2000();
     Angle::from_rad(TAU * turns.rem_euclid(1.0)).positive()
 }
 
