@@ -1,9 +1,9 @@
 //! Where bodies and stars are, by theories of motion of known error.
 //!
-//! Whoever asks says how good the answer must be; [`Ephemeris::choose`] finds the cheapest [`Tier`] that is
-//! good enough. [`Ephemeris::geometric`] gives where a body is, [`apparent`] where it is seen from a place on
-//! the turning Earth, [`stars`] does the same for a catalogue, [`orientation`] knows how the Earth
-//! stands, [`moon_orientation`] how the Moon does.
+//! Whoever asks says how good the answer must be; [`Ephemeris::choose`] finds the cheapest [`Tier`]
+//! that is good enough. An [`Observation`] is one instant at one place: it says where each body is
+//! seen ([`apparent`]) and what all stars share ([`stars`]). [`orientation`] knows how the Earth
+//! stands, [`moon_orientation`] how the Moon does; [`resampled`] holds the tables.
 //!
 //! # Accuracy
 //!
@@ -39,14 +39,14 @@
 //!
 //! The tables of DE440, 1550 to 2650, keep 0.1, 0.01 and 0.001 arcseconds for every body, as deep as
 //! they are read; distances at the deepest: Moon 1 m, Sun 0.3 km, Mercury to Mars 1 km, the others 20
-//! km. The table of DE431 ends at -3000 and +3000; it follows DE431 within 0.12
-//! arcseconds, the Moon within 1 (`pack` prints it), and DE440 has moved Neptune by 1.7 since. What a place costs by each tier,
-//! `cargo bench --bench ephemeris` prints; where a table serves, it is also the cheapest.
+//! km. The table of DE431 ends at -3000 and +3000; it follows DE431 within 0.12 arcseconds, the Moon
+//! within 1 (`pack` prints it), and DE440 has moved Neptune by 1.7 since. What a place costs by each
+//! tier, `cargo bench --bench ephemeris` prints; where a table serves, it is also the cheapest.
 //!
 //! The paper tier ends at -1000, where its Moon is three degrees off; everything else is served from
 //! -4000 to +4000. Pluto's elements were made for -3000 to +3000, and it shows.
 //!
-//! Distances of the others, relative, in 1550-2650: Moon 0.00003 (series) and 0.0016 (paper), Sun 0.00001 and
+//! Distances by series and paper, relative, in 1550-2650: Moon 0.00003 and 0.0016, Sun 0.00001 and
 //! 0.0001, planets 0.0002, Pluto 0.0006 (the largest of 2000 places against DE440).
 
 mod analytic;
