@@ -10,12 +10,15 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+pub mod aerosol;
+pub mod cross_section;
 pub mod extinction;
 mod ray;
 pub mod refraction;
 pub mod scattering;
 pub mod standard;
 
+use aerosol::Aerosol;
 use refraction::Refraction;
 use standard::standard_pressure_mbar;
 
@@ -25,44 +28,84 @@ pub const EARTH_RADIUS_KM: f64 = 6371.0;
 pub const AIR_TOP_KM: f64 = 120.0;
 
 /// The air over a place, as plain data.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Atmosphere {
-    /// Aerosol optical depth of the whole column above sea level at 550 nm: 0.02 on a mountain
-    /// night, 0.1 on a clear one, 0.5 in haze. 0 to 3.
-    pub aerosol_optical_depth_550: f64,
-    /// Exponent `a` of Angstrom's law, optical depth as `(l / 550 nm)^-a`; -1 to 4.
-    pub angstrom_exponent: f64,
-    /// Height over which the aerosol falls by a factor e, kilometres; 0.5 to 10.
-    pub aerosol_scale_height_km: f64,
-    /// Fraction of the light removed by aerosol that is scattered, not absorbed; 0 to 1.
-    pub aerosol_single_scattering_albedo: f64,
-    /// Asymmetry `g` of the Henyey-Greenstein phase function of the aerosol; -0.9 to 0.9.
-    pub aerosol_asymmetry: f64,
-    /// Ozone in the whole column, Dobson units; 0 to 1000.
-    pub ozone_du: f64,
-    /// Lambert albedo of the ground all around; 0 to 1.
-    pub ground_albedo: f64,
-    /// Pressure at the observer, millibars; without it, that of the US Standard Atmosphere 1976 at
-    /// the height of the place. Above 0, up to 1100.
-    pub pressure_mbar: Option<f64>,
-    /// Temperature at the observer, degrees Celsius; -90 to 60.
-    pub temperature_c: f64,
+    pub observer: ObserverWeather,
+    pub ozone: Ozone,
+    /// The haze of the lower air.
+    pub aerosol: Aerosol,
+    /// A second layer high up: the droplets that volcanoes leave.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stratospheric_aerosol: Option<Aerosol>,
+    pub ground: Ground,
+    pub paths: LightPaths,
 }
 
-impl Default for Atmosphere {
+/// The air at the observer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ObserverWeather {
+    /// Millibars, not brought down to sea level; without it, that of the US Standard Atmosphere 1976
+    /// at the height of the place. Above 0, up to 1100.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_mbar: Option<f64>,
+    /// Degrees Celsius; -90 to 60.
+    pub temperature_c: f64,
+    /// 0 to 1.
+    pub relative_humidity: f64,
+}
+
+/// Ozone: its amount, and the triangle over height that it fills.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ozone {
+    /// In the whole column, Dobson units; 0 to 1000.
+    pub column_du: f64,
+    /// Foot, peak and head of the layer, kilometres, ascending; 0 to 120.
+    pub tent_km: [f64; 3],
+}
+
+/// The ground all around.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ground {
+    /// Lambert albedo; 0 to 1.
+    pub albedo: f64,
+    /// Height of the land all around above sea level, metres: 0 for a mountain by the sea. Without
+    /// it, land lies as high as the observer stands. -430 to 9000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<f64>,
+}
+
+/// How light runs through the air.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightPaths {
+    /// Whether air bends rays, and beams spread by it.
+    pub refracted: bool,
+    /// Whether Sun and Moon are discs that set bit by bit, not points.
+    pub source_disc: bool,
+}
+
+impl Default for ObserverWeather {
     fn default() -> Self {
-        Atmosphere {
-            aerosol_optical_depth_550: 0.10,
-            angstrom_exponent: 1.3,
-            aerosol_scale_height_km: 1.2,
-            aerosol_single_scattering_albedo: 0.95,
-            aerosol_asymmetry: 0.7,
-            ozone_du: 300.0,
-            ground_albedo: 0.1,
-            pressure_mbar: None,
-            temperature_c: 10.0,
-        }
+        ObserverWeather { pressure_mbar: None, temperature_c: 10.0, relative_humidity: 0.0 }
+    }
+}
+impl Default for Ozone {
+    fn default() -> Self {
+        Ozone { column_du: 300.0, tent_km: [10.0, 25.0, 40.0] }
+    }
+}
+impl Default for Ground {
+    fn default() -> Self {
+        Ground { albedo: 0.1, height_m: None }
+    }
+}
+impl Default for LightPaths {
+    fn default() -> Self {
+        LightPaths { refracted: true, source_disc: true }
     }
 }
 
@@ -81,25 +124,46 @@ pub enum AirError {
 impl Atmosphere {
     /// Air without aerosol, otherwise as by default.
     pub fn molecular() -> Self {
-        Atmosphere { aerosol_optical_depth_550: 0.0, ..Atmosphere::default() }
+        Atmosphere {
+            aerosol: Aerosol { optical_depth_550: 0.0, ..Aerosol::default() },
+            ..Atmosphere::default()
+        }
+    }
+
+    /// The same air with straight rays and parallel light.
+    pub fn straight(self) -> Self {
+        Atmosphere { paths: LightPaths { refracted: false, source_disc: false }, ..self }
+    }
+
+    /// The aerosols: of the lower air, of the stratosphere.
+    pub fn aerosols(&self) -> [Option<&Aerosol>; 2] {
+        let haze = Some(&self.aerosol);
+        [haze, self.stratospheric_aerosol.as_ref()].map(|a| a.filter(|a| a.optical_depth_550 > 0.0))
+    }
+
+    /// Height of the ground around an observer of the given height, kilometres above sea level.
+    pub fn ground_km(&self, observer_height_m: f64) -> f64 {
+        (self.ground.height_m.unwrap_or(observer_height_m).min(observer_height_m) / 1000.0).max(0.0)
     }
 
     /// Says which number, if any, lies outside what the formulas hold for.
     pub fn validate(&self) -> Result<(), AirError> {
-        // The harmonics of the scattering solver do not follow sharper peaks.
-        const MOST_ASYMMETRIC: f64 = 0.9;
-        let pressure = self.pressure_mbar.unwrap_or(standard::SEA_LEVEL_PRESSURE_MBAR);
-        let checks = [
-            ("aerosol_optical_depth_550", self.aerosol_optical_depth_550, 0.0, 3.0),
-            ("angstrom_exponent", self.angstrom_exponent, -1.0, 4.0),
-            ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.5, 10.0),
-            ("aerosol_single_scattering_albedo", self.aerosol_single_scattering_albedo, 0.0, 1.0),
-            ("aerosol_asymmetry", self.aerosol_asymmetry, -MOST_ASYMMETRIC, MOST_ASYMMETRIC),
-            ("ozone_du", self.ozone_du, 0.0, 1000.0),
-            ("ground_albedo", self.ground_albedo, 0.0, 1.0),
-            ("pressure_mbar", pressure, f64::MIN_POSITIVE, 1100.0),
-            ("temperature_c", self.temperature_c, -90.0, 60.0),
+        let weather = &self.observer;
+        let pressure = weather.pressure_mbar.unwrap_or(standard::SEA_LEVEL_PRESSURE_MBAR);
+        let [foot, peak, head] = self.ozone.tent_km;
+        let mut checks = vec![
+            ("observer.pressure_mbar", pressure, f64::MIN_POSITIVE, 1100.0),
+            ("observer.temperature_c", weather.temperature_c, -90.0, 60.0),
+            ("observer.relative_humidity", weather.relative_humidity, 0.0, 1.0),
+            ("ozone.column_du", self.ozone.column_du, 0.0, 1000.0),
+            ("ozone.tent_km[0]", foot, 0.0, AIR_TOP_KM),
+            ("ozone.tent_km[1]", peak, foot, AIR_TOP_KM),
+            ("ozone.tent_km[2]", head, peak.max(foot + 1.0), AIR_TOP_KM),
+            ("ground.albedo", self.ground.albedo, 0.0, 1.0),
+            ("ground.height_m", self.ground.height_m.unwrap_or(0.0), -430.0, 9000.0),
         ];
+        checks.extend(self.aerosol.ranges());
+        checks.extend(self.stratospheric_aerosol.iter().flat_map(Aerosol::ranges));
         for (what, value, low, high) in checks {
             // Written so that NaN, which is in no range, is refused too.
             if !(low..=high).contains(&value) {
@@ -111,7 +175,7 @@ impl Atmosphere {
 
     /// Pressure at an observer of the given height, millibars.
     pub fn pressure_mbar_at(&self, height_m: f64) -> f64 {
-        self.pressure_mbar.unwrap_or_else(|| standard_pressure_mbar(height_m))
+        self.observer.pressure_mbar.unwrap_or_else(|| standard_pressure_mbar(height_m))
     }
 
     /// How dense the air is over the observer, relative to the US Standard Atmosphere 1976.
@@ -121,7 +185,7 @@ impl Atmosphere {
 
     /// The refraction that an observer of the given height sees.
     pub fn refraction_at(&self, height_m: f64) -> Refraction {
-        Refraction::new(self.pressure_mbar_at(height_m), self.temperature_c)
+        Refraction::new(self.pressure_mbar_at(height_m), self.observer.temperature_c)
     }
 }
 
@@ -135,21 +199,23 @@ mod tests {
         air.validate().unwrap();
         let text = toml::to_string(&air).unwrap();
         assert_eq!(toml::from_str::<Atmosphere>(&text).unwrap(), air);
-        let air: Atmosphere = toml::from_str("ozone_du = 250\npressure_mbar = 780").unwrap();
-        assert_eq!((air.ozone_du, air.pressure_mbar_at(0.0)), (250.0, 780.0));
-        assert!(toml::from_str::<Atmosphere>("ozone = 250").is_err());
+        let air: Atmosphere =
+            toml::from_str("ozone.column_du = 250\nobserver.pressure_mbar = 780").unwrap();
+        assert_eq!((air.ozone.column_du, air.pressure_mbar_at(0.0)), (250.0, 780.0));
+        assert!(toml::from_str::<Atmosphere>("ozone.column = 250").is_err());
     }
 
     #[test]
     fn impossible_air_is_refused_by_name() {
-        let air = Atmosphere { ground_albedo: 1.2, ..Atmosphere::default() };
+        let ground = Ground { albedo: 1.2, ..Ground::default() };
+        let air = Atmosphere { ground, ..Atmosphere::default() };
         let message = air.validate().unwrap_err().to_string();
-        assert_eq!(message, "air: ground_albedo is 1.2, outside 0 to 1; choose a value inside");
-        for air in [
-            Atmosphere { ozone_du: f64::NAN, ..Atmosphere::default() },
-            Atmosphere { pressure_mbar: Some(0.0), ..Atmosphere::default() },
-            Atmosphere { aerosol_asymmetry: 1.0, ..Atmosphere::default() },
-        ] {
+        assert_eq!(message, "air: ground.albedo is 1.2, outside 0 to 1; choose a value inside");
+        let mut airs = [(); 3].map(|()| Atmosphere::default());
+        airs[0].ozone.column_du = f64::NAN;
+        airs[1].observer.pressure_mbar = Some(0.0);
+        airs[2].aerosol.asymmetry = 1.0;
+        for air in airs {
             assert!(air.validate().is_err(), "{air:?}");
         }
     }

@@ -2,6 +2,7 @@
 //! light without nonsense.
 
 use nocturne::air::Atmosphere;
+use nocturne::air::aerosol::Aerosol;
 use nocturne::air::refraction::Refraction;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
 use nocturne::catalog::{MoonMap, Star};
@@ -301,17 +302,16 @@ fn airs() -> impl Strategy<Value = Atmosphere> {
     let rest = (0.0..=1000.0, 0.0..=1.0, proptest::option::of(1e-3..=1100.0), -90.0..=60.0);
     (aerosol, rest).prop_map(|((depth, exponent, scale_km, albedo, asymmetry), rest)| {
         let (ozone_du, ground_albedo, pressure_mbar, temperature_c) = rest;
-        let air = Atmosphere {
-            aerosol_optical_depth_550: depth,
+        let mut air = Atmosphere::default();
+        air.aerosol = Aerosol {
+            optical_depth_550: depth,
             angstrom_exponent: exponent,
-            aerosol_scale_height_km: scale_km,
-            aerosol_single_scattering_albedo: albedo,
-            aerosol_asymmetry: asymmetry,
-            ozone_du,
-            ground_albedo,
-            pressure_mbar,
-            temperature_c,
+            scale_height_km: scale_km,
+            single_scattering_albedo: albedo,
+            asymmetry,
         };
+        (air.ozone.column_du, air.ground.albedo) = (ozone_du, ground_albedo);
+        (air.observer.pressure_mbar, air.observer.temperature_c) = (pressure_mbar, temperature_c);
         air.validate().expect("air within the ranges of the scene");
         air
     })

@@ -12,8 +12,10 @@ use nocturne::units::Angle;
 const WAVELENGTHS_NM: [f64; 3] = [450.0, 550.0, 650.0];
 const OBSERVER_KM: f64 = 0.001;
 
-static MOLECULAR: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&Atmosphere::molecular()));
-static HAZY: LazyLock<ScatteringTables> = LazyLock::new(|| solve(&Atmosphere::default()));
+static MOLECULAR: LazyLock<ScatteringTables> =
+    LazyLock::new(|| solve(&Atmosphere::molecular().straight()));
+static HAZY: LazyLock<ScatteringTables> =
+    LazyLock::new(|| solve(&Atmosphere::default().straight()));
 
 fn solve(air: &Atmosphere) -> ScatteringTables {
     ScatteringTables::solve(air, &WAVELENGTHS_NM, Quality::RENDER).unwrap()
@@ -203,11 +205,13 @@ fn what_cannot_be_solved_is_refused() {
     let fine = Atmosphere::default();
     assert_eq!(solve(fine.clone(), &[]), ScatteringError::NoWavelengths);
     assert_eq!(solve(fine.clone(), &[550.0, 1200.0]), ScatteringError::Wavelength(1200.0));
-    let foggy = Atmosphere { aerosol_optical_depth_550: 7.0, ..fine.clone() };
+    let mut foggy = fine.clone();
+    foggy.aerosol.optical_depth_550 = 7.0;
     assert_eq!(
         solve(foggy, &[550.0]).to_string(),
-        "air: aerosol_optical_depth_550 is 7, outside 0 to 3; choose a value inside"
+        "air: aerosol.optical_depth_550 is 7, outside 0 to 3; choose a value inside"
     );
-    let no_number = Atmosphere { ozone_du: f64::NAN, ..fine };
+    let mut no_number = fine;
+    no_number.ozone.column_du = f64::NAN;
     assert!(matches!(solve(no_number, &[550.0]), ScatteringError::Air(_)));
 }

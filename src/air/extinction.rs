@@ -17,36 +17,18 @@
 
 use std::sync::LazyLock;
 
+use crate::air::aerosol::Aerosol;
+use crate::air::cross_section::{
+    DOBSON_UNIT_PER_M2, ozone_cross_section_m2, rayleigh_cross_section_m2,
+};
 use crate::air::ray::{Bending, Ray, RefractiveAir, Step};
 use crate::air::standard::{logarithmic_density_slope_per_km, number_density_per_m3};
 use crate::air::{AIR_TOP_KM, Atmosphere};
-use crate::light::spectrum::{LEN, Transmittance, interpolate, shipped_column, wavelength_nm};
+use crate::light::spectrum::{LEN, Transmittance, wavelength_nm};
 use crate::units::Angle;
 
-/// Molecules in a column of one Dobson unit, per square metre.
-pub const DOBSON_UNIT_PER_M2: f64 = 2.686_78e20;
-/// Bottom, top of the slope and end of the ozone tent, kilometres.
-const OZONE_TENT_KM: [f64; 3] = [10.0, 25.0, 40.0];
 /// Refractivity of air at sea level in the US Standard Atmosphere, at 550 nm (Edlen 1966).
 const SEA_LEVEL_REFRACTIVITY: f64 = 2.777e-4;
-
-/// Scattering cross-section of a molecule of air, square metres; Bodhaine et al. 1999, eq. 29,
-/// 250 to 850 nm.
-pub fn rayleigh_cross_section_m2(wavelength_nm: f64) -> f64 {
-    let um_squared = (wavelength_nm / 1000.0).powi(2);
-    let above = 1.045_599_6 - 341.290_61 / um_squared - 0.902_308_50 * um_squared;
-    let below = 1.0 + 0.002_705_988_9 / um_squared - 85.968_563 * um_squared;
-    1e-32 * above / below
-}
-
-const OZONE: &str = include_str!("../../catalogs/spectra/ozone_xsec_serdyuchenko_10nm.csv");
-static OZONE_TABLE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| shipped_column(OZONE, 1));
-
-/// Absorption cross-section of an ozone molecule at 233 K, square metres: means over 10 nm, straight
-/// between, 360 to 830 nm, zero outside.
-pub fn ozone_cross_section_m2(wavelength_nm: f64) -> f64 {
-    interpolate(&OZONE_TABLE, wavelength_nm)
-}
 
 /// Cross-sections of a molecule of air and of ozone at the nodes of the grid, square metres.
 static CROSS_SECTIONS_M2: LazyLock<[(f64, f64); LEN]> = LazyLock::new(|| {
@@ -63,17 +45,22 @@ pub struct Columns {
     pub air_per_m2: f64,
     /// Molecules of ozone, per square metre.
     pub ozone_per_m2: f64,
-    /// Optical depth of aerosol at 550 nm.
-    pub aerosol_550: f64,
+    /// Optical depths at 550 nm of the aerosols of [`Atmosphere::aerosols`].
+    pub aerosols_550: [f64; 2],
 }
 
 impl Columns {
-    /// Optical depths of air, ozone and aerosol at the nodes of the grid.
-    pub fn optical_depths(&self, angstrom_exponent: f64) -> [[f64; 3]; LEN] {
+    /// Optical depths of molecules, ozone and aerosols at the nodes of the grid.
+    pub fn optical_depths(&self, air: &Atmosphere) -> [[f64; 3]; LEN] {
+        let aerosols = air.aerosols();
         std::array::from_fn(|node| {
             let (air_m2, ozone_m2) = CROSS_SECTIONS_M2[node];
-            let angstrom = (wavelength_nm(node) / 550.0).powf(-angstrom_exponent);
-            [self.air_per_m2 * air_m2, self.ozone_per_m2 * ozone_m2, self.aerosol_550 * angstrom]
+            let aerosol = |k: usize| {
+                let relative =
+                    |a: &Aerosol| a.optical_depth(wavelength_nm(node)) / a.optical_depth_550;
+                self.aerosols_550[k] * aerosols[k].map_or(0.0, relative)
+            };
+            [self.air_per_m2 * air_m2, self.ozone_per_m2 * ozone_m2, aerosol(0) + aerosol(1)]
         })
     }
 }
@@ -111,8 +98,11 @@ pub fn slant_columns(air: &Atmosphere, height_m: f64, apparent_altitude: Angle) 
     ray.for_each_step(|&Step { height_km, length_km, .. }| {
         let length_m = length_km * 1000.0;
         sum.air_per_m2 += density_ratio * number_density_per_m3(height_km) * length_m;
-        sum.ozone_per_m2 += ozone_per_km(air.ozone_du, height_km) * length_km;
-        sum.aerosol_550 += aerosol_550_per_km(air, height_km) * length_km;
+        sum.ozone_per_m2 += ozone_per_km(air, height_km) * length_km;
+        for (sum, aerosol) in sum.aerosols_550.iter_mut().zip(air.aerosols()) {
+            let per_km = |a: &Aerosol| a.optical_depth_550 * a.density_per_km(height_km);
+            *sum += aerosol.map_or(0.0, per_km) * length_km;
+        }
     });
     sum
 }
@@ -131,33 +121,23 @@ pub fn air_masses(air: &Atmosphere, height_m: f64, apparent_altitude: Angle) -> 
     AirMasses {
         air: ratio(slant.air_per_m2, zenith.air_per_m2),
         ozone: ratio(slant.ozone_per_m2, zenith.ozone_per_m2),
-        aerosol: ratio(slant.aerosol_550, zenith.aerosol_550),
+        aerosol: ratio(slant.aerosols_550[0], zenith.aerosols_550[0]),
     }
 }
 
 /// The fraction of the light from outside the air that arrives unscattered from an apparent altitude.
 pub fn transmittance(air: &Atmosphere, height_m: f64, apparent_altitude: Angle) -> Transmittance {
     let columns = slant_columns(air, height_m, apparent_altitude);
-    let depths = columns.optical_depths(air.angstrom_exponent);
+    let depths = columns.optical_depths(air);
     Transmittance::from_optical_depths(&depths.map(|parts| parts.iter().sum()))
 }
 
 /// Molecules of ozone per square metre and kilometre of path, at a height.
-fn ozone_per_km(ozone_du: f64, height_km: f64) -> f64 {
-    let [bottom, middle, top] = OZONE_TENT_KM;
-    let share = if height_km < middle {
-        (height_km - bottom) / (middle - bottom)
-    } else {
-        (top - height_km) / (top - middle)
-    };
+fn ozone_per_km(air: &Atmosphere, height_km: f64) -> f64 {
+    let [foot, peak, head] = air.ozone.tent_km;
+    let share = ((height_km - foot) / (peak - foot)).min((head - height_km) / (head - peak));
     // The area under the tent is half its width.
-    ozone_du * DOBSON_UNIT_PER_M2 * share.max(0.0) * 2.0 / (top - bottom)
-}
-
-/// Extinction by aerosol at 550 nm, per kilometre, at a height.
-fn aerosol_550_per_km(air: &Atmosphere, height_km: f64) -> f64 {
-    let scale_km = air.aerosol_scale_height_km;
-    air.aerosol_optical_depth_550 / scale_km * (-height_km / scale_km).exp()
+    air.ozone.column_du * DOBSON_UNIT_PER_M2 * share.max(0.0) * 2.0 / (head - foot)
 }
 
 /// The bending power of the air, proportional to its density.
@@ -188,7 +168,7 @@ mod tests {
     fn depths_at(nm: f64) -> [f64; 3] {
         let columns = vertical_columns(&Atmosphere::default(), 0.0);
         let node = ((nm - wavelength_nm(0)) / 5.0).round() as usize;
-        columns.optical_depths(1.3)[node]
+        columns.optical_depths(&Atmosphere::default())[node]
     }
 
     #[test]
@@ -218,10 +198,11 @@ mod tests {
         let ratio = paranal.air_per_m2 / sea.air_per_m2;
         let pressures = air.pressure_mbar_at(2635.0) / air.pressure_mbar_at(0.0);
         assert!((ratio / pressures - 1.0).abs() < 1e-3, "{ratio} {pressures}");
-        assert!((paranal.aerosol_550 / (0.1 * (-2.635f64 / 1.2).exp()) - 1.0).abs() < 1e-4);
+        assert!((paranal.aerosols_550[0] / (0.1 * (-2.635f64 / 1.2).exp()) - 1.0).abs() < 1e-4);
         assert!((paranal.ozone_per_m2 / sea.ozone_per_m2 - 1.0).abs() < 1e-9);
         assert_eq!(slant_columns(&air, 130_000.0, Angle::ZERO), Columns::default());
-        let storm = Atmosphere { pressure_mbar: Some(960.0), ..air };
+        let mut storm = air;
+        storm.observer.pressure_mbar = Some(960.0);
         let low = vertical_columns(&storm, 0.0).air_per_m2 / sea.air_per_m2;
         assert!((low - 960.0 / 1013.25).abs() < 1e-6);
     }
@@ -232,7 +213,8 @@ mod tests {
         assert_eq!(horizon_altitude(&air, 0.0), Angle::ZERO);
         assert_eq!(horizon_altitude(&air, -400.0), Angle::ZERO);
         // Without air: cos(dip) = R / (R + h).
-        let vacuum = Atmosphere { pressure_mbar: Some(1e-9), ..air.clone() };
+        let mut vacuum = air.clone();
+        vacuum.observer.pressure_mbar = Some(1e-9);
         let dip = horizon_altitude(&vacuum, 4000.0).deg();
         assert!((dip + (6371.0f64 / 6375.0).acos().to_degrees()).abs() < 1e-6, "{dip}");
         // Nautical rule for real air: 1.76' times the root of the height in metres.
@@ -243,7 +225,8 @@ mod tests {
     #[test]
     fn air_masses_are_close_to_the_published_formulas() {
         // Schaefer 1993: gas and aerosol with scale heights of 8.2 and 1.5 km, ozone at 20 km.
-        let air = Atmosphere { aerosol_scale_height_km: 1.5, ..Atmosphere::default() };
+        let mut air = Atmosphere::default();
+        air.aerosol.scale_height_km = 1.5;
         for (altitude_deg, within) in [(90.0, 1e-3), (45.0, 0.01), (20.0, 0.01), (10.0, 0.02)] {
             let altitude = Angle::from_deg(altitude_deg);
             let masses = air_masses(&air, 0.0, altitude);
@@ -272,7 +255,10 @@ mod tests {
             let at = |deg: f64| slant_columns(&air, height_m, Angle::from_deg(deg));
             let (below, above) = (at(-1e-7), at(1e-7));
             assert!((below.air_per_m2 / above.air_per_m2 - 1.0).abs() < 1e-5, "{height_m}");
-            assert!((below.aerosol_550 / above.aerosol_550 - 1.0).abs() < 1e-5, "{height_m}");
+            assert!(
+                (below.aerosols_550[0] / above.aerosols_550[0] - 1.0).abs() < 1e-5,
+                "{height_m}"
+            );
             let horizon = horizon_altitude(&air, height_m).deg();
             assert!(at(horizon).air_per_m2 > at(0.0).air_per_m2);
             assert_eq!(at(horizon), at(-30.0));

@@ -21,7 +21,7 @@ mod columns;
 mod field;
 mod harmonics;
 mod lanes;
-mod phase;
+pub mod phase;
 mod profile;
 mod rays;
 mod reconstruction;
@@ -160,7 +160,7 @@ impl Quality {
     };
 
     fn of(&self, air: &Atmosphere) -> Resolution {
-        if air.aerosol_optical_depth_550 > 0.0 { self.with_aerosol } else { self.molecular }
+        if air.aerosols().iter().any(Option::is_some) { self.with_aerosol } else { self.molecular }
     }
 }
 
@@ -229,11 +229,11 @@ impl ScatteringTables {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
+        let geometry = Geometry::new(Profile::new(air));
         let bands = wavelengths_nm
             .chunks(LANES)
             .map(|chunk| {
-                let optics = Optics::new(air, chunk);
+                let optics = Optics::new(air, 1.0, chunk);
                 let field = solve::solve(&geometry, &optics, &resolution);
                 Band { optics, field }
             })

@@ -111,7 +111,7 @@ impl NightSky {
         let layer_km = EARTH_RADIUS_KM + self.layer_height_km;
         // An observer near the layer or in it would see it edge on without end.
         let path = (1.0 - (observer_km * altitude.cos() / layer_km).powi(2)).max(0.01).powf(-0.5);
-        let depths = vertical_columns(air, height_m).optical_depths(air.angstrom_exponent);
+        let depths = vertical_columns(air, height_m).optical_depths(air);
         let lost = depths.map(|parts| parts.iter().sum::<f64>() * (path - 1.0));
         self.zenith_radiance() * path * Transmittance::from_optical_depths(&lost)
     }
@@ -173,12 +173,9 @@ mod tests {
 
     #[test]
     fn without_air_the_layer_alone_brightens() {
-        let void = Atmosphere {
-            aerosol_optical_depth_550: 0.0,
-            ozone_du: 0.0,
-            pressure_mbar: Some(1e-9),
-            ..Atmosphere::default()
-        };
+        let mut void = Atmosphere::molecular();
+        void.ozone.column_du = 0.0;
+        void.observer.pressure_mbar = Some(1e-9);
         let sky = NightSky { layer_height_km: 89.2, ..NightSky::default() };
         let ratio = sky.luminance(&void, 0.0, Angle::ZERO).y / sky.zenith_radiance().xyzv().y;
         // Noll et al. 2012: (1 - 0.972)^(-1/2) = 5.98 at the horizon.

@@ -124,6 +124,6 @@ pub fn sky_plan(
             ground += air.ground(state, &irradiance);
         }
     }
-    let ground = ground * (night.air.ground_albedo / std::f64::consts::PI);
+    let ground = ground * (night.air.ground.albedo / std::f64::consts::PI);
     Ok(SkyPlan { sun, moon, dark, ground })
 }

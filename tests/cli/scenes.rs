@@ -27,8 +27,8 @@ const VALUES: [(&str, &str, &[&str]); 22] = [
     ("projection", "\"mercator\"", &["line ", "mercator", "stereographic"]),
     ("width_px", "0", &["size 0x", "1x1 to 16384x16384"]),
     ("width_px", "-3", &["line ", "-3"]),
-    ("ground_albedo", "nan", &["ground_albedo is NaN", "0 to 1"]),
-    ("ozone_du", "1e9", &["ozone_du is 1000000000", "0 to 1000"]),
+    ("albedo", "nan", &["ground.albedo is NaN", "0 to 1"]),
+    ("column_du", "1e9", &["ozone.column_du is 1000000000", "0 to 1000"]),
     ("exposure_stops", "nan", &["exposure_stops is NaN", "-40 to 40"]),
 ];
 

@@ -184,14 +184,7 @@ impl Field {
     /// `row` from [`Field::at_height`]; `mu_s` the local cosine of the source's zenith distance, `nu`
     /// that between ray and source.
     #[inline(always)]
-    pub fn scattered(
-        &self,
-        optics: &Optics,
-        step: &Step,
-        row: &[Lanes],
-        mu_s: f64,
-        nu: f64,
-    ) -> Lanes {
+    pub fn scattered(&self, step: &Step, row: &[Lanes], mu_s: f64, nu: f64) -> Lanes {
         let stride = self.stride();
         let at = self.sources.bracket(mu_s);
         let low = &row[at.index * stride..][..stride];
@@ -204,7 +197,7 @@ impl Field {
         let m00 = low[0].lerp(high[0], at.weight).exp();
         if step.is_hazy {
             let c = azimuthal_part(self.degree, x, sin2 as f32);
-            let mut sum = (step.molecules + step.aerosol) * Y00;
+            let mut sum = step.by_degree[0] * Y00;
             for l in 1..=self.degree {
                 let (mut below, mut above) = (Lanes::ZERO, Lanes::ZERO);
                 for (m, c) in c[..=l].iter().enumerate() {
@@ -213,9 +206,7 @@ impl Field {
                     below += low[k] * y;
                     above += high[k] * y;
                 }
-                let [molecules, aerosol] = optics.moments[l];
-                sum += (step.molecules * molecules + step.aerosol * aerosol)
-                    * below.lerp(above, at.weight);
+                sum += step.by_degree[l] * below.lerp(above, at.weight);
             }
             // A cut-off series can dip below zero where little light comes from.
             (sum * m00).map(|v| v.max(0.0))
@@ -226,7 +217,7 @@ impl Field {
                 let k = index(2, m);
                 part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
             }
-            step.molecules * (part * optics.moments[2][0] + Lanes::splat(Y00)) * m00
+            (step.by_degree[2] * part + step.by_degree[0] * Y00) * m00
         }
     }
 

@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 
 /// Rayleigh scattering of unpolarised light, without depolarisation, per steradian:
 /// `3/(16 pi) (1 + nu^2)` (Chandrasekhar 1960, section 16).
-pub(crate) fn rayleigh(nu: f64) -> f64 {
+pub fn rayleigh(nu: f64) -> f64 {
     3.0 / (16.0 * PI) * (1.0 + nu * nu)
 }
 
 /// Legendre moment of [`rayleigh`]: 1, 0, 1/10, and 0 from there on.
-pub(crate) fn rayleigh_moment(l: usize) -> f64 {
+pub fn rayleigh_moment(l: usize) -> f64 {
     match l {
         0 => 1.0,
         2 => 0.1,
@@ -20,13 +20,13 @@ pub(crate) fn rayleigh_moment(l: usize) -> f64 {
 }
 
 /// Henyey & Greenstein 1941, per steradian; `g` is the mean cosine, |g| < 1.
-pub(crate) fn henyey_greenstein(g: f64, nu: f64) -> f64 {
+pub fn henyey_greenstein(g: f64, nu: f64) -> f64 {
     let d = 1.0 + g * g - 2.0 * g * nu;
     (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
 }
 
 /// Legendre moment of [`henyey_greenstein`]: `g^l`.
-pub(crate) fn henyey_greenstein_moment(g: f64, l: usize) -> f64 {
+pub fn henyey_greenstein_moment(g: f64, l: usize) -> f64 {
     g.powi(l as i32)
 }
 

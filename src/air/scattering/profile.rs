@@ -1,28 +1,30 @@
 //! What the air is made of: densities that are piecewise linear in height, and cross-sections.
 //!
-//! Three species: molecules, ozone, aerosol. Densities are relative, so that the geometry of paths
+//! Four species: molecules, ozone, haze, stratospheric aerosol. Densities are relative, so that the geometry of paths
 //! (`columns`) holds for every wavelength and every amount of ozone and aerosol; the coefficients
 //! per kilometre at density 1 carry the rest.
 //!
-//! Molecules: US Standard Atmosphere 1976. Ozone: a tent 10-25-40 km. Aerosol: exponential, sampled
-//! each kilometre up to 30 km, normalised to its column. Between nodes, all are linear: the
+//! Molecules: US Standard Atmosphere 1976. Ozone: a tent. Aerosols: sampled each kilometre up to 30 km,
+//! each two up to 60, normalised to their columns. Between nodes, all are linear: the
 //! reference this is measured against has exactly these layers.
 
 use super::harmonics::MAX_DEGREE;
 use super::lanes::{LANES, Lanes};
 use super::phase;
 use crate::air::Atmosphere;
-
-/// Radius of the spherical Earth, kilometres (IUGG mean radius).
-pub const EARTH_RADIUS_KM: f64 = 6371.0;
-/// Where the air ends, kilometres above the ground.
-pub const TOP_KM: f64 = 120.0;
+use crate::air::aerosol::Aerosol;
+use crate::air::cross_section::{
+    DOBSON_UNIT_PER_M2, ozone_cross_section_m2, rayleigh_cross_section_m2,
+};
+pub use crate::air::{AIR_TOP_KM as TOP_KM, EARTH_RADIUS_KM};
 
 /// How many kinds of matter there are, and where each stands.
-pub(crate) const SPECIES: usize = 3;
+pub(crate) const SPECIES: usize = 4;
 const MOLECULES: usize = 0;
-const OZONE: usize = 1;
+/// The first of the aerosols: haze, then the stratosphere's.
 const AEROSOL: usize = 2;
+/// How many kinds of matter scatter: molecules and the aerosols.
+pub(crate) const SCATTERERS: usize = 3;
 
 /// Height (km), number density of molecules (m^-3). US Standard Atmosphere 1976; its formulas to
 /// 86 km, its table above.
@@ -87,75 +89,41 @@ const MOLECULE_DENSITY: [(f64, f64); 58] = [
     (120.0, 5.107e17),
 ];
 
-/// Molecules per square metre in a Dobson unit: 10 micrometres of gas at 273.15 K, 101 325 Pa.
-const DOBSON_UNIT_PER_M2: f64 = 2.6867e20;
-/// Foot, peak and head of the ozone tent, km (Bruneton 2017, "Precomputed atmospheric
-/// scattering: a new implementation").
-const OZONE_TENT_KM: [f64; 3] = [10.0, 25.0, 40.0];
-/// Above this, there is no aerosol.
-const AEROSOL_TOP_KM: f64 = 30.0;
-
-/// Ozone absorption at 233 K from 360 to 830 nm in steps of 10 nm, 1e-25 m2 (Serdyuchenko et al.
-/// 2014, *Atmos. Meas. Tech.* 7, 625; 10-nm means).
-const OZONE_CROSS_SECTION: [f64; 48] = [
-    0.0118, 0.002182, 0.002818, 0.006636, 0.01527, 0.02763, 0.0552, 0.08451, 0.1582, 0.2316,
-    0.3669, 0.4924, 0.7752, 0.9016, 1.48, 1.602, 2.139, 2.755, 3.091, 3.5, 4.266, 4.672, 4.398,
-    4.701, 5.019, 4.305, 3.74, 3.215, 2.662, 2.238, 1.852, 1.473, 1.209, 0.9423, 0.7455, 0.6566,
-    0.5105, 0.415, 0.4228, 0.3237, 0.2451, 0.2801, 0.2534, 0.1624, 0.1465, 0.2078, 0.1383, 0.07105,
-];
-/// The wavelengths that [`ozone_cross_section_m2`] covers, nm.
+/// The wavelengths that have cross-sections, nm.
 pub(crate) const WAVELENGTH_RANGE_NM: std::ops::RangeInclusive<f64> = 360.0..=830.0;
 
-/// Absorption of an ozone molecule, m2: linear between 10-nm means, held constant outside 360 to
-/// 830 nm.
-pub(crate) fn ozone_cross_section_m2(wavelength_nm: f64) -> f64 {
-    let last = OZONE_CROSS_SECTION.len() - 1;
-    let t = ((wavelength_nm - 360.0) / 10.0).clamp(0.0, last as f64);
-    let i = (t as usize).min(last - 1);
-    let (a, b) = (OZONE_CROSS_SECTION[i], OZONE_CROSS_SECTION[i + 1]);
-    (a + (b - a) * (t - i as f64)) * 1e-25
-}
-
-/// Scattering by a molecule of air with 360 ppm of CO2, m2.
-///
-/// Bodhaine et al. 1999, *J. Atmos. Oceanic Technol.* 16, 1854, eq. 29; 250 to 850 nm.
-pub(crate) fn rayleigh_cross_section_m2(wavelength_nm: f64) -> f64 {
-    let um2 = (wavelength_nm * 1e-3).powi(2);
-    let above = 1.045_599_6 - 341.290_61 / um2 - 0.902_308_50 * um2;
-    let below = 1.0 + 0.002_705_988_9 / um2 - 85.968_563 * um2;
-    1e-32 * above / below
-}
-
-/// Relative densities of the three species against height.
+/// Relative densities of the species against height.
 #[derive(Debug, Clone)]
 pub(crate) struct Profile {
     /// From the ground to [`TOP_KM`], ascending.
     heights_km: Vec<f64>,
-    /// Molecules: 1 at the ground. Ozone: 1 at its peak. Aerosol: per km, vertical column 1.
+    /// Molecules: 1 at sea level. Ozone: 1 at its peak. Aerosols: per km, vertical column 1.
     densities: Vec<[f64; SPECIES]>,
 }
 
 impl Profile {
-    pub fn new(aerosol_scale_height_km: f64) -> Profile {
+    pub fn new(air: &Atmosphere) -> Profile {
+        let [foot, peak, head] = air.ozone.tent_km;
         let heights_km: Vec<f64> = MOLECULE_DENSITY.iter().map(|&(h, _)| h).collect();
         let mut densities: Vec<[f64; SPECIES]> = MOLECULE_DENSITY
             .iter()
             .map(|&(h, n)| {
-                let [foot, peak, head] = OZONE_TENT_KM;
                 let ozone = ((h - foot) / (peak - foot)).min((head - h) / (head - peak)).max(0.0);
-                let aerosol =
-                    if h > AEROSOL_TOP_KM { 0.0 } else { (-h / aerosol_scale_height_km).exp() };
-                [n / MOLECULE_DENSITY[0].1, ozone, aerosol]
+                let [haze, stratosphere] =
+                    air.aerosols().map(|a| a.map_or(0.0, |a| a.density_per_km(h)));
+                [n / MOLECULE_DENSITY[0].1, ozone, haze, stratosphere]
             })
             .collect();
-        let column: f64 = (1..heights_km.len())
-            .map(|i| {
-                0.5 * (densities[i][AEROSOL] + densities[i - 1][AEROSOL])
-                    * (heights_km[i] - heights_km[i - 1])
-            })
-            .sum();
-        for d in &mut densities {
-            d[AEROSOL] /= column;
+        for k in AEROSOL..SPECIES {
+            let column: f64 = (1..heights_km.len())
+                .map(|i| {
+                    let thickness_km = heights_km[i] - heights_km[i - 1];
+                    0.5 * (densities[i][k] + densities[i - 1][k]) * thickness_km
+                })
+                .sum();
+            if column > 0.0 {
+                densities.iter_mut().for_each(|d| d[k] /= column);
+            }
         }
         Profile { heights_km, densities }
     }
@@ -194,63 +162,81 @@ pub(crate) struct Optics {
     pub extinction: [[f64; LANES]; SPECIES],
     /// The same, as lanes.
     pub extinction_lanes: [Lanes; SPECIES],
-    /// What part of the extinction of molecules (all) and of aerosol is scattering.
-    pub aerosol_albedo: f64,
-    /// Mean cosine of the aerosol's phase function.
-    pub asymmetry: f64,
-    /// Legendre moments of molecules and of aerosol.
-    pub moments: [[f32; 2]; MAX_DEGREE + 1],
+    /// What part of the extinction of each scatterer is scattering.
+    pub albedo: [[f64; LANES]; SCATTERERS],
+    /// Legendre moments of the phase functions of the scatterers.
+    pub moments: [[Lanes; SCATTERERS]; MAX_DEGREE + 1],
     /// Lambert albedo of the ground.
     pub ground_albedo: f64,
     /// Without aerosol, the source function has no degree but 0 and 2.
     pub has_aerosol: bool,
+    aerosols: [Option<Aerosol>; 2],
+    wavelengths_nm: [f64; LANES],
 }
 
+/// Where a scatterer stands among the species.
+pub(crate) const SPECIES_OF_SCATTERER: [usize; SCATTERERS] = [MOLECULES, AEROSOL, AEROSOL + 1];
+
 impl Optics {
-    /// For up to [`LANES`] wavelengths; the last is repeated to fill the lanes.
-    pub fn new(air: &Atmosphere, wavelengths_nm: &[f64]) -> Optics {
+    /// For up to [`LANES`] wavelengths; the last is repeated to fill the lanes. The density of the
+    /// molecules is relative to that of the standard atmosphere.
+    pub fn new(air: &Atmosphere, density_ratio: f64, wavelengths_nm: &[f64]) -> Optics {
         let nm: [f64; LANES] =
             std::array::from_fn(|i| wavelengths_nm[i.min(wavelengths_nm.len() - 1)]);
-        let ozone_peak_m3 =
-            air.ozone_du * DOBSON_UNIT_PER_M2 / (0.5e3 * (OZONE_TENT_KM[2] - OZONE_TENT_KM[0]));
+        let [foot, _, head] = air.ozone.tent_km;
+        let ozone_peak_m3 = air.ozone.column_du * DOBSON_UNIT_PER_M2 / (0.5e3 * (head - foot));
         // Per metre to per kilometre.
-        let molecules = nm.map(|nm| 1e3 * rayleigh_cross_section_m2(nm) * MOLECULE_DENSITY[0].1);
+        let air_m3 = density_ratio * MOLECULE_DENSITY[0].1;
+        let molecules = nm.map(|nm| 1e3 * rayleigh_cross_section_m2(nm) * air_m3);
         let ozone = nm.map(|nm| 1e3 * ozone_cross_section_m2(nm) * ozone_peak_m3);
-        let aerosol =
-            nm.map(|nm| air.aerosol_optical_depth_550 * (nm / 550.0).powf(-air.angstrom_exponent));
-        let extinction = [molecules, ozone, aerosol];
-        let g = air.aerosol_asymmetry;
+        let aerosols = air.aerosols();
+        let [haze, stratosphere] =
+            aerosols.map(|a| nm.map(|nm| a.map_or(0.0, |a| a.optical_depth(nm))));
+        let [haze_albedo, stratosphere_albedo] =
+            aerosols.map(|a| nm.map(|nm| a.map_or(0.0, |a| a.albedo(nm))));
+        let extinction = [molecules, ozone, haze, stratosphere];
+        let moment = |l: usize, k: usize, i: usize| match k {
+            MOLECULES => phase::rayleigh_moment(l),
+            _ => aerosols[k - 1].map_or(0.0, |a| a.moment(nm[i], l)),
+        };
         Optics {
             extinction,
             extinction_lanes: extinction.map(|e| Lanes::from_fn(|i| e[i])),
-            aerosol_albedo: air.aerosol_single_scattering_albedo,
-            asymmetry: g,
+            albedo: [[1.0; LANES], haze_albedo, stratosphere_albedo],
             moments: std::array::from_fn(|l| {
-                [phase::rayleigh_moment(l) as f32, phase::henyey_greenstein_moment(g, l) as f32]
+                std::array::from_fn(|k| Lanes::from_fn(|i| moment(l, k, i)))
             }),
-            ground_albedo: air.ground_albedo,
-            has_aerosol: extinction[AEROSOL].iter().any(|&e| e > 0.0),
+            ground_albedo: air.ground.albedo,
+            has_aerosol: aerosols.iter().any(Option::is_some),
+            aerosols: aerosols.map(|a| a.cloned()),
+            wavelengths_nm: nm,
         }
     }
 
     /// Optical depth of columns, each lane.
     #[inline(always)]
     pub fn optical_depth(&self, columns: [f32; SPECIES]) -> Lanes {
-        let [a, b, c] = self.extinction_lanes;
-        a * columns[MOLECULES] + b * columns[OZONE] + c * columns[AEROSOL]
+        let [a, b, c, d] = self.extinction_lanes;
+        a * columns[0] + b * columns[1] + c * columns[2] + d * columns[3]
     }
 
-    /// Scattering by molecules and by aerosol, the mean over the lanes, km^-1.
+    /// Scattering by molecules and by aerosols, the mean over the lanes, km^-1.
     pub fn mean_scattering(&self, density: [f64; SPECIES]) -> (f64, f64) {
-        let mean = |k: usize| self.extinction[k].iter().sum::<f64>() / LANES as f64 * density[k];
-        (mean(MOLECULES), mean(AEROSOL) * self.aerosol_albedo)
+        let of = |k: usize| {
+            let species = SPECIES_OF_SCATTERER[k];
+            let lanes = self.extinction[species].iter().zip(&self.albedo[k]);
+            lanes.map(|(e, a)| e * a).sum::<f64>() / LANES as f64 * density[species]
+        };
+        (of(0), of(1) + of(2))
     }
 
-    /// Phase functions at a turn of cosine `nu`, per steradian: molecules, aerosol.
-    pub fn phases(&self, nu: f64) -> (f32, f32) {
-        let aerosol =
-            if self.has_aerosol { phase::henyey_greenstein(self.asymmetry, nu) } else { 0.0 };
-        (phase::rayleigh(nu) as f32, aerosol as f32)
+    /// Phase functions at a turn of cosine `nu`, per steradian, of the scatterers.
+    pub fn phases(&self, nu: f64) -> [Lanes; SCATTERERS] {
+        let [haze, stratosphere] = [0, 1].map(|k| match &self.aerosols[k] {
+            Some(a) => Lanes::from_fn(|i| a.phase(self.wavelengths_nm[i], nu)),
+            None => Lanes::ZERO,
+        });
+        [Lanes::splat(phase::rayleigh(nu) as f32), haze, stratosphere]
     }
 }
 
@@ -260,8 +246,8 @@ mod tests {
 
     /// Optical depth of a vertical column of one species.
     fn vertical_depth(air: &Atmosphere, wavelength_nm: f64, species: usize) -> f64 {
-        let profile = Profile::new(air.aerosol_scale_height_km);
-        let optics = Optics::new(air, &[wavelength_nm]);
+        let profile = Profile::new(air);
+        let optics = Optics::new(air, 1.0, &[wavelength_nm]);
         let (h, d) = (profile.heights_km(), profile.densities());
         (1..h.len())
             .map(|i| 0.5 * (d[i][species] + d[i - 1][species]) * (h[i] - h[i - 1]))
@@ -289,7 +275,7 @@ mod tests {
 
     #[test]
     fn densities_meet_their_nodes_and_stop_at_the_ends() {
-        let profile = Profile::new(1.2);
+        let profile = Profile::new(&Atmosphere::default());
         assert_eq!(profile.density(0.0)[0], 1.0);
         assert_eq!(profile.density(25.0)[1], 1.0);
         assert_eq!(profile.density(9.0)[1], 0.0);

@@ -6,9 +6,11 @@
 //! extinction. These weights know neither azimuth nor source: a ray is cut once and used for all.
 
 use super::columns::{self, SourceColumns, SourceRow};
-use super::harmonics::{MAX_COEFFICIENTS, zonal_part};
+use super::harmonics::{MAX_COEFFICIENTS, MAX_DEGREE, zonal_part};
 use super::lanes::{LANES, Lanes};
-use super::profile::{EARTH_RADIUS_KM, Optics, Profile, SPECIES, TOP_KM};
+use super::profile::{
+    EARTH_RADIUS_KM, Optics, Profile, SCATTERERS, SPECIES, SPECIES_OF_SCATTERER, TOP_KM,
+};
 
 /// What does not depend on wavelength: layers and the way to the source.
 #[derive(Debug, Clone)]
@@ -72,10 +74,10 @@ pub(crate) struct Step {
     pub altitude: Bracket,
     /// Harmonics of the direction of the ray there, but for azimuth.
     pub zonal: [f32; MAX_COEFFICIENTS],
-    /// Weight of light scattered by molecules, each lane.
-    pub molecules: Lanes,
-    /// Weight of light scattered by aerosol, each lane.
-    pub aerosol: Lanes,
+    /// Weight of light scattered by each scatterer, each lane.
+    pub weights: [Lanes; SCATTERERS],
+    /// By degree: the weights times the moments of the phase functions, summed.
+    pub by_degree: [Lanes; MAX_DEGREE + 1],
     /// Whether aerosol counts here.
     pub is_hazy: bool,
 }
@@ -126,7 +128,7 @@ impl Ray {
             let sample = a + (b - a) * (rho_a + 2.0 * rho_b) / (3.0 * (rho_a + rho_b));
             let r = (p2 + sample * sample).sqrt().max(EARTH_RADIUS_KM);
 
-            let (molecules, aerosol) = scatter_weights(optics, &columns, &mut depth);
+            let weights = scatter_weights(optics, &columns, &mut depth);
             let cos_view = (sample / r).clamp(-1.0, 1.0);
             steps.push(Step {
                 distance_km: sample - start,
@@ -135,8 +137,10 @@ impl Ray {
                 row: medium.geometry.source.row(r - EARTH_RADIUS_KM),
                 altitude: Bracket::of(medium.altitudes_km, r - EARTH_RADIUS_KM),
                 zonal: zonal_part(medium.degree, cos_view),
-                molecules,
-                aerosol,
+                weights,
+                by_degree: optics
+                    .moments
+                    .map(|m| weights[0] * m[0] + weights[1] * m[1] + weights[2] * m[2]),
                 is_hazy: aer_a.max(aer_b) > NEGLIGIBLE_AEROSOL * mol_a.min(mol_b),
             });
         }
@@ -168,19 +172,19 @@ fn scatter_weights(
     optics: &Optics,
     columns: &[f64; SPECIES],
     depth: &mut [f64; LANES],
-) -> (Lanes, Lanes) {
-    let [molecules, ozone, aerosol] = optics.extinction;
-    let mut weights = [[0.0; LANES]; 2];
+) -> [Lanes; SCATTERERS] {
+    let mut weights = [[0.0; LANES]; SCATTERERS];
     for i in 0..LANES {
-        let parts = [molecules[i] * columns[0], ozone[i] * columns[1], aerosol[i] * columns[2]];
+        let parts: [f64; SPECIES] = std::array::from_fn(|k| optics.extinction[k][i] * columns[k]);
         let step_depth: f64 = parts.iter().sum();
         let mean = if step_depth > 1e-9 { -(-step_depth).exp_m1() / step_depth } else { 1.0 };
         let weight = (-depth[i]).exp() * mean;
-        weights[0][i] = parts[0] * weight;
-        weights[1][i] = parts[2] * weight * optics.aerosol_albedo;
+        for k in 0..SCATTERERS {
+            weights[k][i] = parts[SPECIES_OF_SCATTERER[k]] * weight * optics.albedo[k][i];
+        }
         depth[i] += step_depth;
     }
-    (Lanes::from_fn(|i| weights[0][i]), Lanes::from_fn(|i| weights[1][i]))
+    weights.map(|w| Lanes::from_fn(|i| w[i]))
 }
 
 /// Where a ray is cut, as distances from its closest point, ascending from `start`; and whether it
@@ -234,8 +238,8 @@ mod tests {
     const RULE: RaySteps = RaySteps { levels: 30, longest_km: 40.0, longest_in_aerosol_km: 5.0 };
 
     fn with_medium(air: &Atmosphere, test: impl Fn(&Medium)) {
-        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
-        let optics = Optics::new(air, &[450.0, 550.0]);
+        let geometry = Geometry::new(Profile::new(air));
+        let optics = Optics::new(air, 1.0, &[450.0, 550.0]);
         let altitudes_km = [0.0, 10.0, 50.0, TOP_KM];
         test(&Medium {
             geometry: &geometry,
@@ -247,18 +251,16 @@ mod tests {
 
     #[test]
     fn what_is_not_transmitted_is_scattered_where_nothing_absorbs() {
-        let air = Atmosphere {
-            ozone_du: 0.0,
-            aerosol_single_scattering_albedo: 1.0,
-            ..Atmosphere::default()
-        };
+        let mut air = Atmosphere::default();
+        air.ozone.column_du = 0.0;
+        air.aerosol.single_scattering_albedo = 1.0;
         with_medium(&air, |medium| {
             for (height, mu) in [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
             {
                 let ray = Ray::cut(medium, &RULE, height, mu);
                 let mut sum = ray.transmittance;
                 for step in &ray.steps {
-                    sum += step.molecules + step.aerosol;
+                    step.weights.iter().for_each(|&weight| sum += weight);
                 }
                 for value in sum.0 {
                     assert!((value - 1.0).abs() < 1e-5, "{height} km, {mu}: {value}");

@@ -6,7 +6,7 @@
 //! wavelengths in nm. Measured for clear skies from noon to 18 degrees of twilight, on the nodes
 //! below: 0.3 % at most in X, Y, Z and V.
 
-use super::profile::ozone_cross_section_m2;
+use crate::air::cross_section::ozone_cross_section_m2;
 
 /// Eight wavelengths from which clear-sky spectra are rebuilt well, nm.
 pub const SKY_NODES_NM: [f64; 8] = [385.0, 400.0, 450.0, 505.0, 545.0, 595.0, 635.0, 665.0];
@@ -84,8 +84,8 @@ pub fn reconstruction_matrix(nodes_nm: &[f64], targets_nm: &[f64]) -> Matrix {
 
 #[cfg(test)]
 mod tests {
-    use super::super::profile::rayleigh_cross_section_m2;
     use super::*;
+    use crate::air::cross_section::rayleigh_cross_section_m2;
 
     #[test]
     fn nodes_are_kept() {

@@ -238,9 +238,10 @@ mod tests {
     /// the radiance below is a field that depends on height and direction, solved as for the Sun.
     #[test]
     fn a_uniform_sky_stays_uniform() {
-        let air = Atmosphere { ozone_du: 0.0, ground_albedo: 1.0, ..Atmosphere::molecular() };
-        let geometry = Geometry::new(Profile::new(air.aerosol_scale_height_km));
-        let optics = Optics::new(&air, &[400.0, 500.0]);
+        let mut air = Atmosphere::molecular();
+        (air.ozone.column_du, air.ground.albedo) = (0.0, 1.0);
+        let geometry = Geometry::new(Profile::new(&air));
+        let optics = Optics::new(&air, 1.0, &[400.0, 500.0]);
         // Coarse: every node is solved here for the same sky as often as there are sources.
         let preview = Quality::PREVIEW.molecular;
         let directions = Directions { azimuths: 3, ..preview.higher_orders };

@@ -40,16 +40,15 @@ pub(crate) fn transmittance_to_ground(medium: &Medium, mu_s: f64) -> Lanes {
 /// Light of the source scattered once, or reflected once by the ground, per unit irradiance.
 pub(crate) fn first_order(medium: &Medium, ray: &Ray, source: Source) -> Lanes {
     let Source { cos_zenith, nu } = source;
-    let (molecules, aerosol) = medium.optics.phases(nu);
+    let phases = medium.optics.phases(nu);
     let mut sum = Lanes::ZERO;
     for step in &ray.steps {
         let mu_s = ray.local_cos_source(step.distance_km, step.r_km, cos_zenith, nu);
         if let Some(columns) = medium.geometry.source.columns(&step.row, mu_s) {
-            let scattered = if step.is_hazy {
-                step.molecules * molecules + step.aerosol * aerosol
-            } else {
-                step.molecules * molecules
-            };
+            let mut scattered = step.weights[0] * phases[0];
+            if step.is_hazy {
+                scattered += step.weights[1] * phases[1] + step.weights[2] * phases[2];
+            }
             sum += scattered * (-medium.optics.optical_depth(columns)).exp();
         }
     }
@@ -85,7 +84,7 @@ pub(crate) fn add_higher_orders(
         let range = field.sources.bracket(low).index..field.sources.bracket(high).index + 2;
         field.at_height(step, range, row);
         for (source, out) in sources.iter().zip(out.iter_mut()) {
-            *out += field.scattered(medium.optics, step, row, local(source), source.nu);
+            *out += field.scattered(step, row, local(source), source.nu);
         }
     }
     if ray.ground_km.is_some() {
