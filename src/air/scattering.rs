@@ -21,11 +21,13 @@ mod columns;
 mod field;
 mod harmonics;
 mod lanes;
+mod path;
 pub mod phase;
 mod profile;
 mod rays;
 mod reconstruction;
 mod solve;
+mod source;
 mod view;
 
 use rayon::prelude::*;
@@ -37,10 +39,11 @@ use lanes::{LANES, Lanes};
 pub use profile::{EARTH_RADIUS_KM, TOP_KM};
 use profile::{Optics, Profile, WAVELENGTH_RANGE_NM};
 pub use rays::RaySteps;
-use rays::{Geometry, Medium, Ray};
+use rays::{Geometry, Medium, Ray, Source};
 pub use reconstruction::{Matrix, SKY_NODES_NM, reconstruction_matrix};
 pub use solve::Directions;
-use view::{Source, add_higher_orders, first_order};
+use source::{Beams, SourceTable};
+use view::{FirstOrder, add_higher_orders, direct_on_ground, first_order};
 
 /// Why no tables could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -201,8 +204,14 @@ impl Resolution {
 #[derive(Debug, Clone)]
 struct Band {
     optics: Optics,
+    source: SourceTable,
     field: Field,
 }
+
+/// Angular radius of the Sun at its mean distance, and near enough of the Moon, if a source is a disc.
+const DISC_RADIUS: Angle = Angle::from_deg(0.2666);
+/// Refractivity of air at sea level in the US Standard Atmosphere, at 550 nm (Edlen 1966).
+const SEA_LEVEL_REFRACTIVITY: f64 = 2.777e-4;
 
 /// The solved diffuse field of an atmosphere at a set of wavelengths.
 #[derive(Debug, Clone)]
@@ -210,13 +219,45 @@ pub struct ScatteringTables {
     wavelengths_nm: Vec<f64>,
     view: RaySteps,
     geometry: Geometry,
+    beams: Beams,
     bands: Vec<Band>,
 }
 
+/// The rays of one observer, cut once for all sources.
+#[derive(Debug, Clone)]
+pub struct ViewRays {
+    height_km: f64,
+    /// By elevation, then by band.
+    rays: Vec<Vec<Ray>>,
+}
+
+/// Radiance per unit irradiance of the source, a band of wavelengths.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ViewLight {
+    /// All but the light that aerosols scatter once.
+    pub smooth: Lanes,
+    /// What aerosols scatter once: the aureole.
+    pub haze: Lanes,
+}
+
 impl ScatteringTables {
-    /// Solves for the field. Wavelengths in nm, 360 to 830, in any order; eight cost as much as one.
+    /// Solves for the field over ground at sea level, or at the height that the air names.
+    ///
+    /// Wavelengths in nm, 360 to 830, in any order; eight cost as much as one.
     pub fn solve(
         air: &Atmosphere,
+        wavelengths_nm: &[f64],
+        quality: Quality,
+    ) -> Result<ScatteringTables, ScatteringError> {
+        let height_m = air.ground.height_m.unwrap_or(0.0);
+        ScatteringTables::for_observer(air, height_m, wavelengths_nm, quality)
+    }
+
+    /// Solves for the field around an observer of a height above sea level, metres: the pressure of the
+    /// air is given for there, and the ground may lie as high.
+    pub fn for_observer(
+        air: &Atmosphere,
+        height_m: f64,
         wavelengths_nm: &[f64],
         quality: Quality,
     ) -> Result<ScatteringTables, ScatteringError> {
@@ -229,19 +270,38 @@ impl ScatteringTables {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let geometry = Geometry::new(Profile::new(air));
+        let density_ratio = air.density_ratio_at(height_m);
+        let ground_km = air.ground_km(height_m);
+        let refractivity =
+            if air.paths.refracted { SEA_LEVEL_REFRACTIVITY * density_ratio } else { 0.0 };
+        let geometry = Geometry { profile: Profile::new(air), ground_km, refractivity };
+        let disc_radius = if air.paths.source_disc { DISC_RADIUS } else { Angle::ZERO };
+        let beams = Beams::new(&geometry.profile, ground_km, refractivity, disc_radius);
+        let straight = geometry.straight();
         let bands = wavelengths_nm
             .chunks(LANES)
             .map(|chunk| {
-                let optics = Optics::new(air, 1.0, chunk);
-                let field = solve::solve(&geometry, &optics, &resolution);
-                Band { optics, field }
+                let optics = Optics::new(air, density_ratio, chunk);
+                let source = SourceTable::new(&beams, &optics);
+                let field = Field::new(resolution.degree, ground_km, resolution.altitudes);
+                let altitudes_km = field.altitudes_km.clone();
+                let medium = Medium {
+                    geometry: &straight,
+                    optics: &optics,
+                    beams: &beams,
+                    source: &source,
+                    altitudes_km: &altitudes_km,
+                    degree: resolution.degree,
+                };
+                let field = solve::solve(&medium, field, &resolution);
+                Band { optics, source, field }
             })
             .collect();
         Ok(ScatteringTables {
             wavelengths_nm: wavelengths_nm.to_vec(),
             view: resolution.view,
             geometry,
+            beams,
             bands,
         })
     }
@@ -251,19 +311,73 @@ impl ScatteringTables {
         &self.wavelengths_nm
     }
 
+    /// Height of the ground above sea level, kilometres.
+    pub fn ground_km(&self) -> f64 {
+        self.geometry.ground_km
+    }
+
+    /// Apparent elevation of the horizon from a height, kilometres above sea level.
+    pub fn horizon(&self, height_km: f64) -> Angle {
+        let height_km = height_km.clamp(self.geometry.ground_km, TOP_KM);
+        self.geometry.horizon(height_km)
+    }
+
     fn medium<'a>(&'a self, band: &'a Band) -> Medium<'a> {
         Medium {
             geometry: &self.geometry,
             optics: &band.optics,
+            beams: &self.beams,
+            source: &band.source,
             altitudes_km: &band.field.altitudes_km,
             degree: band.field.degree,
         }
     }
 
+    /// Cuts the rays of an observer, by apparent elevation; his height is clamped to the air.
+    pub fn view_rays(&self, observer_height_km: f64, elevations: &[Angle]) -> ViewRays {
+        let height_km = observer_height_km.clamp(self.geometry.ground_km, TOP_KM);
+        let rays = elevations
+            .par_iter()
+            .map(|elevation| {
+                let cut =
+                    |band| Ray::cut(&self.medium(band), &self.view, height_km, elevation.sin());
+                self.bands.iter().map(cut).collect()
+            })
+            .collect();
+        ViewRays { height_km, rays }
+    }
+
+    /// Light along the rays of one elevation, for each azimuth, given by its cosine, of one band.
+    pub(crate) fn along(
+        &self,
+        rays: &ViewRays,
+        row: usize,
+        band: usize,
+        cos_sun_zenith: f64,
+        cos_azimuths: &[f64],
+    ) -> Vec<ViewLight> {
+        let ray = &rays.rays[row][band];
+        let band = &self.bands[band];
+        let medium = self.medium(band);
+        let cos_sun = cos_sun_zenith.clamp(-1.0, 1.0);
+        let raised = self.beams.refraction(rays.height_km, cos_sun);
+        let sources: Vec<Source> = cos_azimuths
+            .iter()
+            .map(|&a| Source::new(cos_sun, ray.cos_zenith, a).raised(raised, ray.cos_zenith, a))
+            .collect();
+        let first: Vec<FirstOrder> = sources.iter().map(|s| first_order(&medium, ray, s)).collect();
+        let mut smooth: Vec<Lanes> = first.iter().map(|light| light.smooth).collect();
+        let mut scratch = band.field.step_field();
+        add_higher_orders(&medium, &band.field, ray, &sources, &mut scratch, &mut smooth);
+        let join = |(smooth, first): (Lanes, &FirstOrder)| ViewLight { smooth, haze: first.haze };
+        smooth.into_iter().zip(&first).map(join).collect()
+    }
+
     /// Diffuse radiance per unit irradiance of the source outside the air, sr^-1, each wavelength.
     ///
-    /// The source itself is not in it; the ground is, below the horizon. The observer's height is
-    /// clamped to 0 to [`TOP_KM`]; `azimuth_from_sun` counts from the source, either way round.
+    /// The source itself is not in it; the ground is, below the horizon. The zenith distance of the
+    /// source is the true one, the elevation of the view the apparent one. The observer's height is
+    /// clamped to the air; `azimuth_from_sun` counts from the source, either way round.
     pub fn radiance(
         &self,
         observer_height_km: f64,
@@ -272,53 +386,26 @@ impl ScatteringTables {
         azimuth_from_sun: Angle,
         out: &mut [f64],
     ) {
+        let rays = self.view_rays(observer_height_km, &[view_elevation]);
         let azimuths = [azimuth_from_sun.cos()];
-        for (band, out) in self.bands.iter().zip(out.chunks_mut(LANES)) {
-            let ray =
-                self.along(band, observer_height_km, cos_sun_zenith, view_elevation, &azimuths);
-            for (out, value) in out.iter_mut().zip(ray[0].0) {
+        for (band, out) in out.chunks_mut(LANES).enumerate().take(self.bands.len()) {
+            let light = self.along(&rays, 0, band, cos_sun_zenith, &azimuths)[0];
+            for (out, value) in out.iter_mut().zip((light.smooth + light.haze).0) {
                 *out = f64::from(value);
             }
         }
     }
 
-    /// Radiance in one elevation, for each azimuth, given by its cosine.
-    fn along(
-        &self,
-        band: &Band,
-        observer_height_km: f64,
-        cos_sun_zenith: f64,
-        view_elevation: Angle,
-        cos_azimuths: &[f64],
-    ) -> Vec<Lanes> {
-        let medium = self.medium(band);
-        let height_km = observer_height_km.clamp(0.0, TOP_KM);
-        let cos_view = view_elevation.sin();
-        let ray = Ray::cut(&medium, &self.view, height_km, cos_view);
-        let cos_sun_zenith = cos_sun_zenith.clamp(-1.0, 1.0);
-        let sources: Vec<Source> =
-            cos_azimuths.iter().map(|&a| Source::new(cos_sun_zenith, cos_view, a)).collect();
-        let mut out: Vec<Lanes> = sources.iter().map(|&s| first_order(&medium, &ray, s)).collect();
-        let mut row = vec![Lanes::ZERO; band.field.row_len()];
-        add_higher_orders(&medium, &band.field, &ray, &sources, &mut row, &mut out);
-        out
-    }
-
-    /// Transmittance of the direct beam from a height to space, each wavelength; 0 if the ground is
-    /// in the way. Exact for the layers of the profile; straight rays.
-    pub fn transmittance(&self, height_km: f64, cos_zenith: f64, out: &mut [f64]) {
-        let columns = columns::to_space(
-            &self.geometry.profile,
-            height_km.clamp(0.0, TOP_KM),
-            cos_zenith.clamp(-1.0, 1.0),
-        );
-        for (i, out) in out.iter_mut().enumerate().take(self.wavelengths_nm.len()) {
-            let extinction = &self.bands[i / LANES].optics.extinction;
-            *out = columns.map_or(0.0, |columns| {
-                let depth: f64 =
-                    columns.iter().zip(extinction).map(|(n, e)| n * e[i % LANES]).sum();
-                (-depth).exp()
-            });
+    /// Light of the source itself that arrives at a height, per unit irradiance outside the air, each
+    /// wavelength, on a plane that faces it: less than what the air lets through where it spreads the
+    /// beam, and what is left of the disc when it sets.
+    pub fn direct_irradiance(&self, height_km: f64, cos_zenith: f64, out: &mut [f64]) {
+        for (band, out) in self.bands.iter().zip(out.chunks_mut(LANES)) {
+            let row = band.source.row(height_km.clamp(self.geometry.ground_km, TOP_KM));
+            let arriving = band.source.irradiance(&row, cos_zenith.clamp(-1.0, 1.0));
+            for (out, value) in out.iter_mut().zip(arriving.0) {
+                *out = f64::from(value);
+            }
         }
     }
 
@@ -326,18 +413,13 @@ impl ScatteringTables {
     /// wavelength: that of the sky, and that of the source itself.
     pub fn ground_irradiance(&self, cos_sun_zenith: f64) -> (Vec<f64>, Vec<f64>) {
         let n = self.wavelengths_nm.len();
-        let diffuse = self
-            .bands
-            .iter()
-            .flat_map(|band| band.field.ground_irradiance(cos_sun_zenith).0)
-            .map(f64::from)
-            .take(n)
-            .collect();
-        let mut direct = vec![0.0; n];
-        if cos_sun_zenith > 0.0 {
-            self.transmittance(0.0, cos_sun_zenith, &mut direct);
-            direct.iter_mut().for_each(|d| *d *= cos_sun_zenith);
-        }
+        let cosine = cos_sun_zenith.clamp(-1.0, 1.0);
+        let all = |of_band: &dyn Fn(&Band) -> Lanes| -> Vec<f64> {
+            let lanes = self.bands.iter().flat_map(|band| of_band(band).0);
+            lanes.map(f64::from).take(n).collect()
+        };
+        let diffuse = all(&|band| band.field.ground_irradiance(cosine));
+        let direct = all(&|band| direct_on_ground(&self.medium(band), cosine));
         (diffuse, direct)
     }
 
@@ -354,21 +436,18 @@ impl ScatteringTables {
         let cos_azimuths: Vec<f64> = (0..n_az)
             .map(|i| (std::f64::consts::PI * i as f64 / (n_az - 1) as f64).cos())
             .collect();
+        let elevation = |i: usize| SkyView::elevation_of(i as f64 / (n_el - 1) as f64);
+        let elevations: Vec<Angle> = (0..n_el).map(elevation).collect();
+        let rays = self.view_rays(observer_height_km, &elevations);
         let rows: Vec<Vec<f32>> = (0..n_el)
             .into_par_iter()
             .map(|i| {
-                let elevation = SkyView::elevation_of(i as f64 / (n_el - 1) as f64);
                 let mut row = vec![0.0; n_az * n];
-                for (b, band) in self.bands.iter().enumerate() {
-                    let along = self.along(
-                        band,
-                        observer_height_km,
-                        cos_sun_zenith,
-                        elevation,
-                        &cos_azimuths,
-                    );
-                    for (out, value) in row.chunks_exact_mut(n).zip(along) {
-                        for (out, value) in out[b * LANES..].iter_mut().zip(value.0) {
+                for b in 0..self.bands.len() {
+                    let along = self.along(&rays, i, b, cos_sun_zenith, &cos_azimuths);
+                    for (out, light) in row.chunks_exact_mut(n).zip(along) {
+                        let all = light.smooth + light.haze;
+                        for (out, value) in out[b * LANES..].iter_mut().zip(all.0) {
                             *out = value;
                         }
                     }

@@ -10,8 +10,8 @@ use std::ops::Range;
 
 use super::harmonics::{azimuthal_part, coefficient_count, index};
 use super::lanes::Lanes;
-use super::profile::{Optics, TOP_KM};
-use super::rays::{Bracket, Ray, Step};
+use super::profile::TOP_KM;
+use super::rays::{Bracket, Source, Step};
 
 /// Below this, a moment counts as dark: far under starlight, and safe in single precision.
 const DARK: f32 = 1e-34;
@@ -76,12 +76,13 @@ impl SourceGrid {
     }
 }
 
-/// `120 (0.04 t + 0.96 t^2.6)` km for equal steps of `t`: half of the nodes below 20 km.
-pub(crate) fn altitude_grid_km(count: usize) -> Vec<f64> {
+/// `0.04 t + 0.96 t^2.6` of the way from the ground to the top for equal steps of `t`: half of the nodes
+/// below 20 km.
+pub(crate) fn altitude_grid_km(ground_km: f64, count: usize) -> Vec<f64> {
     (0..count)
         .map(|i| {
             let t = i as f64 / (count - 1) as f64;
-            TOP_KM * (0.04 * t + 0.96 * t.powf(2.6))
+            ground_km + (TOP_KM - ground_km) * (0.04 * t + 0.96 * t.powf(2.6))
         })
         .collect()
 }
@@ -101,11 +102,11 @@ pub(crate) struct Field {
 
 impl Field {
     /// A dark field.
-    pub fn new(degree: usize, altitudes: usize) -> Field {
+    pub fn new(degree: usize, ground_km: f64, altitudes: usize) -> Field {
         let sources = SourceGrid::new();
         let mut field = Field {
             degree,
-            altitudes_km: altitude_grid_km(altitudes),
+            altitudes_km: altitude_grid_km(ground_km, altitudes),
             moments: vec![Lanes::ZERO; altitudes * sources.len() * coefficient_count(degree)],
             ln_ground: vec![Lanes::ZERO; sources.len()],
             sources,
@@ -120,9 +121,14 @@ impl Field {
         coefficient_count(self.degree)
     }
 
-    /// Size of the scratch of [`Field::at_height`].
-    pub fn row_len(&self) -> usize {
-        self.sources.len() * self.stride()
+    /// Coefficients of a node of a [`StepField`].
+    fn step_stride(&self) -> usize {
+        self.degree + 3
+    }
+
+    /// Scratch for [`Field::at_step`].
+    pub fn step_field(&self) -> StepField {
+        StepField(vec![Lanes::ZERO; self.sources.len() * self.step_stride()])
     }
 
     /// Takes moments `[altitude][source][coefficient]` and irradiances of the ground `[source]`.
@@ -156,84 +162,70 @@ impl Field {
         self.ln_ground[at.index].lerp(self.ln_ground[at.index + 1], at.weight).exp()
     }
 
-    /// The field at the height of a step, for the sources of `range`: `row[source][coefficient]`.
+    /// What the field scatters along its ray in a step, for the sources of `range`.
     ///
-    /// Where there is no haze, only the degrees 0 and 2.
-    pub fn at_height(&self, step: &Step, range: Range<usize>, row: &mut [Lanes]) {
+    /// Where there is no haze, only the degrees 0 and 2 count.
+    pub fn at_step(&self, step: &Step, range: Range<usize>, out: &mut StepField) {
         let stride = self.stride();
         let at = step.altitude;
         let sources = self.sources.len();
+        let orders = self.orders_at(step);
         for source in range {
             let low = &self.moments[(at.index * sources + source) * stride..][..stride];
             let high = &self.moments[((at.index + 1) * sources + source) * stride..][..stride];
-            let out = &mut row[source * stride..][..stride];
-            if step.is_hazy {
-                for c in 0..stride {
-                    out[c] = low[c].lerp(high[c], at.weight);
-                }
-            } else {
-                for c in [0, 3, 4, 5] {
-                    out[c] = low[c].lerp(high[c], at.weight);
-                }
-            }
-        }
-    }
-
-    /// Light of the field that a step scatters along its ray.
-    ///
-    /// `row` from [`Field::at_height`]; `mu_s` the local cosine of the source's zenith distance, `nu`
-    /// that between ray and source.
-    #[inline(always)]
-    pub fn scattered(&self, step: &Step, row: &[Lanes], mu_s: f64, nu: f64) -> Lanes {
-        let stride = self.stride();
-        let at = self.sources.bracket(mu_s);
-        let low = &row[at.index * stride..][..stride];
-        let high = &row[(at.index + 1) * stride..][..stride];
-        let z = step.cos_view;
-        let sin2 = (1.0 - z * z).max(0.0);
-        let sin = sin2.sqrt();
-        let x = (nu - z * mu_s) / (1.0 - mu_s * mu_s).max(1e-12).sqrt();
-        let x = x.clamp(-sin, sin) as f32;
-        let m00 = low[0].lerp(high[0], at.weight).exp();
-        if step.is_hazy {
-            let c = azimuthal_part(self.degree, x, sin2 as f32);
-            let mut sum = step.by_degree[0] * Y00;
-            for l in 1..=self.degree {
-                let (mut below, mut above) = (Lanes::ZERO, Lanes::ZERO);
-                for (m, c) in c[..=l].iter().enumerate() {
+            let out = &mut out.0[source * self.step_stride()..][..self.step_stride()];
+            let ln = low[0].lerp(high[0], at.weight);
+            let (head, parts) = out.split_at_mut(2);
+            head[0] = ln;
+            head[1] = (ln * 0.5).exp();
+            parts[0] = step.by_degree[0] * Y00;
+            parts[1..orders].fill(Lanes::ZERO);
+            let degrees = if step.is_hazy { 1..=self.degree } else { 2..=2 };
+            for l in degrees {
+                for (m, part) in parts[..=l].iter_mut().enumerate() {
                     let k = index(l, m);
-                    let y = step.zonal[k] * c;
-                    below += low[k] * y;
-                    above += high[k] * y;
+                    let ratio = low[k].lerp(high[k], at.weight);
+                    *part += ratio * step.by_degree[l] * step.zonal[k];
                 }
-                sum += step.by_degree[l] * below.lerp(above, at.weight);
             }
-            // A cut-off series can dip below zero where little light comes from.
-            (sum * m00).map(|v| v.max(0.0))
-        } else {
-            let c = [1.0, x, 2.0 * x * x - sin2 as f32];
-            let mut part = Lanes::ZERO;
-            for (m, c) in c.iter().enumerate() {
-                let k = index(2, m);
-                part += low[k].lerp(high[k], at.weight) * (step.zonal[k] * c);
-            }
-            (step.by_degree[2] * part + step.by_degree[0] * Y00) * m00
         }
     }
 
-    /// Light of the field, reflected by the ground at the end of a ray.
-    pub fn reflected(&self, optics: &Optics, ray: &Ray, cos_source: f64, nu: f64) -> Lanes {
-        match ray.ground_km {
-            Some(length) => {
-                let mu_s = ray.cos_source_on_ground(length, cos_source, nu);
-                ray.transmittance
-                    * self.ground_irradiance(mu_s)
-                    * (optics.ground_albedo / std::f64::consts::PI) as f32
-            }
-            None => Lanes::ZERO,
+    /// How many orders of azimuth a step has.
+    fn orders_at(&self, step: &Step) -> usize {
+        if step.is_hazy { self.degree + 1 } else { 3 }
+    }
+
+    /// Light of the field that a step scatters along its ray, from [`Field::at_step`].
+    #[inline(always)]
+    pub fn scattered(&self, step: &Step, field: &StepField, source: &Source) -> Lanes {
+        let stride = self.step_stride();
+        let mu_s = source.local_cosine(step.turn);
+        let at = self.sources.bracket(mu_s);
+        let low = &field.0[at.index * stride..][..stride];
+        let high = &field.0[(at.index + 1) * stride..][..stride];
+        let sin2 = (step.sin_view * step.sin_view) as f32;
+        let sin_s = (1.0 - mu_s * mu_s).max(1e-12).sqrt();
+        let x = step.sin_view * (source.local_level(step.turn) / sin_s).clamp(-1.0, 1.0);
+        // The mean between the nodes, geometric, is the product of their roots; the way from it is a
+        // short power series.
+        let apart = (high[0] - low[0]) * (at.weight - 0.5);
+        let m00 = low[1] * high[1] * apart.exp_near_zero();
+        let c = azimuthal_part(self.degree, x as f32, sin2);
+        let (mut below, mut above) = (low[2], high[2]);
+        for m in 1..self.orders_at(step) {
+            below += low[m + 2] * c[m];
+            above += high[m + 2] * c[m];
         }
+        // A cut-off series can dip below zero where little light comes from.
+        (below.lerp(above, at.weight) * m00).map(|v| if v > 0.0 { v } else { 0.0 })
     }
 }
+
+/// The field as one step of a ray scatters it: for each source the logarithm of the mean radiance, its
+/// square root, and what each order of azimuth adds.
+#[derive(Debug, Clone)]
+pub(crate) struct StepField(Vec<Lanes>);
 
 #[cfg(test)]
 mod tests {

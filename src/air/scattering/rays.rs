@@ -1,28 +1,45 @@
-//! A straight ray through the air, cut into steps with exact columns.
+//! A ray through the air, cut into steps with exact columns.
 //!
 //! A step is cut at height levels, at the closest point to the Earth and at a longest length. What
 //! it contributes is the source function at its centre of density times
 //! `sigma dN T (1 - exp(-dtau)) / dtau`, which is exact for a source function that follows the
 //! extinction. These weights know neither azimuth nor source: a ray is cut once and used for all.
+//!
+//! The rays that an observer sees are bent where the air is to bend light; those along which the
+//! field is solved are straight, which changes where its light comes from by less than a step.
 
-use super::columns::{self, SourceColumns, SourceRow};
 use super::harmonics::{MAX_COEFFICIENTS, MAX_DEGREE, zonal_part};
 use super::lanes::{LANES, Lanes};
-use super::profile::{
-    EARTH_RADIUS_KM, Optics, Profile, SCATTERERS, SPECIES, SPECIES_OF_SCATTERER, TOP_KM,
-};
+use super::path::Path;
+use super::profile::{Optics, Profile, SCATTERERS, SPECIES, SPECIES_OF_SCATTERER, TOP_KM};
+use super::source::{Beams, SourceRow, SourceTable};
+use crate::air::EARTH_RADIUS_KM;
+use crate::units::Angle;
 
-/// What does not depend on wavelength: layers and the way to the source.
+/// The air as rays meet it.
 #[derive(Debug, Clone)]
 pub(crate) struct Geometry {
     pub profile: Profile,
-    pub source: SourceColumns,
+    /// Height of the ground above sea level.
+    pub ground_km: f64,
+    /// Refractivity of the air at sea level; 0 if rays are straight.
+    pub refractivity: f64,
 }
 
 impl Geometry {
-    pub fn new(profile: Profile) -> Geometry {
-        let source = SourceColumns::new(&profile);
-        Geometry { profile, source }
+    pub fn ground_radius_km(&self) -> f64 {
+        EARTH_RADIUS_KM + self.ground_km
+    }
+    /// Apparent elevation of the horizon from a height.
+    pub fn horizon(&self, height_km: f64) -> Angle {
+        let path = |height_km: f64| Path::new(&self.profile, self.refractivity, height_km, 1.0);
+        let (here, ground) = (path(height_km).start().u_km, path(self.ground_km).start().u_km);
+        let u_km = ((here - ground) * (here + ground)).max(0.0).sqrt();
+        Angle::from_rad(-u_km.atan2(ground))
+    }
+    /// The same air with straight rays.
+    pub fn straight(&self) -> Geometry {
+        Geometry { refractivity: 0.0, ..self.clone() }
     }
 }
 
@@ -62,13 +79,11 @@ impl Bracket {
 /// One step of a ray, seen at its sample point.
 #[derive(Debug, Clone)]
 pub(crate) struct Step {
-    /// From the start of the ray to the sample point.
-    pub distance_km: f64,
-    /// From the centre of the Earth to the sample point.
-    pub r_km: f64,
-    /// Cosine between the ray and the vertical there.
-    pub cos_view: f64,
-    /// Its height, prepared for the columns to the source.
+    /// By how much the vertical has turned since the start of the ray: sine and cosine.
+    pub turn: (f64, f64),
+    /// Sine of the angle between the ray and the vertical there.
+    pub sin_view: f64,
+    /// Its height, prepared for the light of the source.
     pub row: SourceRow,
     /// Its height between those of the field.
     pub altitude: Bracket,
@@ -82,60 +97,105 @@ pub(crate) struct Step {
     pub is_hazy: bool,
 }
 
+/// Where a ray meets the ground.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GroundHit {
+    /// As in [`Step`].
+    pub turn: (f64, f64),
+}
+
 /// A ray, cut.
 #[derive(Debug, Clone)]
 pub(crate) struct Ray {
-    /// Radius at its start.
-    pub r_km: f64,
     /// Cosine of its zenith distance at its start.
     pub cos_zenith: f64,
     pub steps: Vec<Step>,
     /// Transmittance to its end.
     pub transmittance: Lanes,
-    /// Length, if it ends on the ground.
-    pub ground_km: Option<f64>,
+    /// Its end, if that is the ground.
+    pub ground: Option<GroundHit>,
 }
 
-/// What a ray is cut in: layers, coefficients, the heights and the degree of the field.
+/// What a ray is cut in: layers, coefficients, the source, the heights and the degree of the field.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Medium<'a> {
     pub geometry: &'a Geometry,
     pub optics: &'a Optics,
+    pub beams: &'a Beams,
+    pub source: &'a SourceTable,
     pub altitudes_km: &'a [f64],
     pub degree: usize,
 }
 
+/// A distant source, seen from the start of a ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Source {
+    pub cos_zenith: f64,
+    /// Its part along the horizontal direction that the ray runs in.
+    pub level: f64,
+    /// Cosine of the angle by which light turns from the source into the ray.
+    pub nu: f64,
+}
+
+impl Source {
+    /// Zenith distances by cosine, and the azimuth between ray and source by its cosine.
+    pub fn new(cos_zenith: f64, cos_view: f64, cos_azimuth: f64) -> Source {
+        let sine = |cosine: f64| (1.0 - cosine * cosine).max(0.0).sqrt();
+        let level = sine(cos_zenith) * cos_azimuth;
+        let nu = (cos_zenith * cos_view + level * sine(cos_view)).clamp(-1.0, 1.0);
+        Source { cos_zenith, level, nu }
+    }
+
+    /// The same source, which is seen higher than it stands: light turns from where it is seen.
+    pub fn raised(self, by: Angle, cos_view: f64, cos_azimuth: f64) -> Source {
+        if by == Angle::ZERO {
+            return self;
+        }
+        let sine = (1.0 - self.cos_zenith * self.cos_zenith).max(0.0).sqrt();
+        let raised = (self.cos_zenith * by.cos() + sine * by.sin()).clamp(-1.0, 1.0);
+        Source { nu: Source::new(raised, cos_view, cos_azimuth).nu, ..self }
+    }
+
+    /// Cosine of the source's zenith distance where the vertical has turned.
+    #[inline(always)]
+    pub fn local_cosine(&self, (sin_turn, cos_turn): (f64, f64)) -> f64 {
+        (cos_turn * self.cos_zenith + sin_turn * self.level).clamp(-1.0, 1.0)
+    }
+
+    /// Its part along the local horizontal there.
+    #[inline(always)]
+    pub fn local_level(&self, (sin_turn, cos_turn): (f64, f64)) -> f64 {
+        cos_turn * self.level - sin_turn * self.cos_zenith
+    }
+}
+
 impl Ray {
     pub fn cut(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
-        debug_assert!((0.0..=TOP_KM).contains(&height_km) && cos_zenith.abs() <= 1.0);
-        let profile = &medium.geometry.profile;
+        let Geometry { profile, ground_km, refractivity } = medium.geometry;
         let optics = medium.optics;
-        let r_km = EARTH_RADIUS_KM + height_km;
-        // Distances are counted from the closest point, p from the centre.
-        let start = r_km * cos_zenith;
-        let p2 = r_km * r_km * (1.0 - cos_zenith * cos_zenith);
-        let (cuts, hits_ground) = cuts(rule, optics.has_aerosol, start, p2, r_km);
+        let path = Path::new(profile, *refractivity, height_km, cos_zenith);
+        let (cuts, hits_ground) = cuts(rule, optics.has_aerosol, &path, *ground_km);
 
         let mut depth = [0.0; LANES];
+        let mut turn_rad = 0.0;
         let mut steps = Vec::with_capacity(cuts.len());
         for ends in cuts.windows(2) {
-            let (a, b) = (ends[0], ends[1]);
-            let (r_a, r_b) = ((p2 + a * a).sqrt(), (p2 + b * b).sqrt());
-            let columns = columns::between(profile, p2, r_a.min(r_b), r_a.max(r_b));
-            let at_end = |r: f64| optics.mean_scattering(profile.density(r - EARTH_RADIUS_KM));
-            let ((mol_a, aer_a), (mol_b, aer_b)) = (at_end(r_a), at_end(r_b));
+            let (from, to) = (path.point(ends[0]), path.point(ends[1]));
+            let (columns, turned_rad) = path.between(&from, &to);
+            let at_end = |height_km: f64| optics.mean_scattering(profile.density(height_km));
+            let ((mol_a, aer_a), (mol_b, aer_b)) = (at_end(from.height_km), at_end(to.height_km));
             let (rho_a, rho_b) = (mol_a + aer_a, mol_b + aer_b);
-            let sample = a + (b - a) * (rho_a + 2.0 * rho_b) / (3.0 * (rho_a + rho_b));
-            let r = (p2 + sample * sample).sqrt().max(EARTH_RADIUS_KM);
+            let share = (rho_a + 2.0 * rho_b) / (3.0 * (rho_a + rho_b));
+            let sample = path.point(from.u_km + (to.u_km - from.u_km) * share);
 
             let weights = scatter_weights(optics, &columns, &mut depth);
-            let cos_view = (sample / r).clamp(-1.0, 1.0);
+            let cos_view = path.cosine_at(&sample);
+            let height_km = sample.height_km.clamp(*ground_km, TOP_KM);
             steps.push(Step {
-                distance_km: sample - start,
-                r_km: r,
-                cos_view,
-                row: medium.geometry.source.row(r - EARTH_RADIUS_KM),
-                altitude: Bracket::of(medium.altitudes_km, r - EARTH_RADIUS_KM),
+                turn: (turn_rad + turned_rad * share).sin_cos(),
+                sin_view: (1.0 - cos_view * cos_view).max(0.0).sqrt(),
+                row: medium.source.row(height_km),
+                altitude: Bracket::of(medium.altitudes_km, height_km),
                 zonal: zonal_part(medium.degree, cos_view),
                 weights,
                 by_degree: optics
@@ -143,27 +203,14 @@ impl Ray {
                     .map(|m| weights[0] * m[0] + weights[1] * m[1] + weights[2] * m[2]),
                 is_hazy: aer_a.max(aer_b) > NEGLIGIBLE_AEROSOL * mol_a.min(mol_b),
             });
+            turn_rad += turned_rad;
         }
         Ray {
-            r_km,
             cos_zenith,
             steps,
             transmittance: Lanes::from_fn(|i| (-depth[i]).exp()),
-            ground_km: hits_ground.then(|| cuts[cuts.len() - 1] - start),
+            ground: hits_ground.then(|| GroundHit { turn: turn_rad.sin_cos() }),
         }
-    }
-
-    /// Cosine of the source's zenith distance, a distance along the ray.
-    ///
-    /// Given that cosine at the start and the cosine `nu` between ray and source.
-    #[inline(always)]
-    pub fn local_cos_source(&self, distance_km: f64, r_km: f64, cos_source: f64, nu: f64) -> f64 {
-        ((self.r_km * cos_source + distance_km * nu) / r_km).clamp(-1.0, 1.0)
-    }
-
-    /// Cosine of the source's zenith distance where the ray meets the ground.
-    pub fn cos_source_on_ground(&self, length_km: f64, cos_source: f64, nu: f64) -> f64 {
-        self.local_cos_source(length_km, EARTH_RADIUS_KM, cos_source, nu)
     }
 }
 
@@ -187,28 +234,30 @@ fn scatter_weights(
     weights.map(|w| Lanes::from_fn(|i| w[i]))
 }
 
-/// Where a ray is cut, as distances from its closest point, ascending from `start`; and whether it
+/// Where a ray is cut, as distances from its closest point, ascending from its start; and whether it
 /// ends on the ground.
-fn cuts(rule: &RaySteps, has_aerosol: bool, start: f64, p2: f64, r_km: f64) -> (Vec<f64>, bool) {
-    let at_radius = |r: f64| (r * r - p2).max(0.0).sqrt();
+fn cuts(rule: &RaySteps, has_aerosol: bool, path: &Path, ground_km: f64) -> (Vec<f64>, bool) {
     let levels: Vec<f64> = (0..=rule.levels)
         .map(|i| {
             let t = i as f64 / rule.levels as f64;
-            EARTH_RADIUS_KM + TOP_KM * (0.06 * t + 0.94 * t.powf(2.2))
+            ground_km + (TOP_KM - ground_km) * (0.06 * t + 0.94 * t.powf(2.2))
         })
         .collect();
     const SAME_KM: f64 = 1e-6;
-    let hits_ground = start < 0.0 && p2 < EARTH_RADIUS_KM * EARTH_RADIUS_KM;
+    let start = path.start().u_km;
+    let start_km = path.start().height_km;
+    let lowest_km = path.lowest_km();
+    let hits_ground = start < 0.0 && lowest_km < ground_km;
     let mut coarse = vec![start];
     if start < 0.0 {
-        let lowest = if hits_ground { EARTH_RADIUS_KM } else { p2.sqrt() };
-        let between = |r: &&f64| **r < r_km - SAME_KM && **r > lowest + SAME_KM;
-        coarse.extend(levels.iter().rev().filter(between).map(|&r| -at_radius(r)));
-        coarse.push(if hits_ground { -at_radius(EARTH_RADIUS_KM) } else { 0.0 });
+        let lowest = lowest_km.max(ground_km);
+        let between = |h: &&f64| **h < start_km - SAME_KM && **h > lowest + SAME_KM;
+        coarse.extend(levels.iter().rev().filter(between).map(|&h| -path.u_at(h)));
+        coarse.push(if hits_ground { -path.u_at(ground_km) } else { 0.0 });
     }
     if !hits_ground {
-        let lowest = if start < 0.0 { p2.sqrt() } else { r_km };
-        coarse.extend(levels.iter().filter(|r| **r > lowest + SAME_KM).map(|&r| at_radius(r)));
+        let lowest = if start < 0.0 { lowest_km } else { start_km };
+        coarse.extend(levels.iter().filter(|h| **h > lowest + SAME_KM).map(|&h| path.u_at(h)));
     }
 
     let mut cuts = vec![start];
@@ -217,8 +266,8 @@ fn cuts(rule: &RaySteps, has_aerosol: bool, start: f64, p2: f64, r_km: f64) -> (
         if b - a < SAME_KM {
             continue;
         }
-        let low_km = (p2 + a.abs().min(b.abs()).powi(2)).sqrt() - EARTH_RADIUS_KM;
-        let longest = if has_aerosol && low_km < AEROSOL_LAYER_KM {
+        let low_km = path.point(if a.abs() < b.abs() { a } else { b }).height_km;
+        let longest = if has_aerosol && low_km - ground_km < AEROSOL_LAYER_KM {
             rule.longest_in_aerosol_km
         } else {
             rule.longest_km
@@ -234,16 +283,21 @@ fn cuts(rule: &RaySteps, has_aerosol: bool, start: f64, p2: f64, r_km: f64) -> (
 mod tests {
     use super::*;
     use crate::air::Atmosphere;
+    use crate::air::scattering::columns;
 
     const RULE: RaySteps = RaySteps { levels: 30, longest_km: 40.0, longest_in_aerosol_km: 5.0 };
 
-    fn with_medium(air: &Atmosphere, test: impl Fn(&Medium)) {
-        let geometry = Geometry::new(Profile::new(air));
+    fn with_medium(air: &Atmosphere, refractivity: f64, test: impl Fn(&Medium)) {
+        let geometry = Geometry { profile: Profile::new(air), ground_km: 0.0, refractivity };
         let optics = Optics::new(air, 1.0, &[450.0, 550.0]);
+        let beams = Beams::new(&geometry.profile, 0.0, refractivity, Angle::ZERO);
+        let source = SourceTable::new(&beams, &optics);
         let altitudes_km = [0.0, 10.0, 50.0, TOP_KM];
         test(&Medium {
             geometry: &geometry,
             optics: &optics,
+            beams: &beams,
+            source: &source,
             altitudes_km: &altitudes_km,
             degree: 2,
         });
@@ -254,45 +308,73 @@ mod tests {
         let mut air = Atmosphere::default();
         air.ozone.column_du = 0.0;
         air.aerosol.single_scattering_albedo = 1.0;
-        with_medium(&air, |medium| {
-            for (height, mu) in [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
-            {
-                let ray = Ray::cut(medium, &RULE, height, mu);
-                let mut sum = ray.transmittance;
-                for step in &ray.steps {
-                    step.weights.iter().for_each(|&weight| sum += weight);
+        for refractivity in [0.0, 2.8e-4] {
+            with_medium(&air, refractivity, |medium| {
+                for (height, mu) in
+                    [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
+                {
+                    let ray = Ray::cut(medium, &RULE, height, mu);
+                    let mut sum = ray.transmittance;
+                    for step in &ray.steps {
+                        step.weights.iter().for_each(|&weight| sum += weight);
+                    }
+                    for value in sum.0 {
+                        assert!((value - 1.0).abs() < 1e-5, "{height} km, {mu}: {value}");
+                    }
                 }
-                for value in sum.0 {
-                    assert!((value - 1.0).abs() < 1e-5, "{height} km, {mu}: {value}");
-                }
-            }
-        });
+            });
+        }
     }
 
     #[test]
     fn transmittance_is_that_of_the_columns() {
-        with_medium(&Atmosphere::default(), |medium| {
+        with_medium(&Atmosphere::default(), 0.0, |medium| {
             for (height, mu) in [(0.0, 0.3), (2.0, 0.0), (40.0, -0.08)] {
                 let ray = Ray::cut(medium, &RULE, height, mu);
                 let columns = columns::to_space(&medium.geometry.profile, height, mu).unwrap();
                 let depth: f64 =
                     (0..SPECIES).map(|k| columns[k] * medium.optics.extinction[k][0]).sum();
                 assert!((f64::from(ray.transmittance.0[0]) - (-depth).exp()).abs() < 1e-6);
-                assert!(ray.ground_km.is_none());
+                assert!(ray.ground.is_none());
             }
         });
     }
 
     #[test]
     fn rays_meet_the_ground_where_they_should() {
-        with_medium(&Atmosphere::default(), |medium| {
+        with_medium(&Atmosphere::default(), 0.0, |medium| {
             let down = Ray::cut(medium, &RULE, 10.0, -1.0);
-            assert!((down.ground_km.unwrap() - 10.0).abs() < 1e-9);
+            assert!(down.ground.unwrap().turn.0.abs() < 1e-12);
+            let aslant = Ray::cut(medium, &RULE, 10.0, -0.1);
+            // Law of sines: the ray meets the ground at a steeper angle.
+            let sin_ground = (1.0f64 - 0.01).sqrt() * 6381.0 / 6371.0;
+            let turn = sin_ground.acos() - 0.1f64.asin();
+            assert!((aslant.ground.unwrap().turn.0 + turn.sin()).abs() < 1e-9, "{turn}");
             let at_once = Ray::cut(medium, &RULE, 0.0, -0.3);
-            assert!(at_once.ground_km.unwrap().abs() < 1e-9 && at_once.steps.is_empty());
+            assert!(at_once.ground.is_some() && at_once.steps.is_empty());
             // The horizon of 10 km lies 3.2 degrees below level.
-            assert!(Ray::cut(medium, &RULE, 10.0, -0.055).ground_km.is_none());
-            assert!(Ray::cut(medium, &RULE, 10.0, -0.057).ground_km.is_some());
+            assert!(Ray::cut(medium, &RULE, 10.0, -0.055).ground.is_none());
+            assert!(Ray::cut(medium, &RULE, 10.0, -0.057).ground.is_some());
+            assert!((medium.geometry.horizon(10.0).deg() + 3.2087).abs() < 1e-3);
         });
+        with_medium(&Atmosphere::default(), 2.777e-4, |medium| {
+            // Bent light comes from further: the horizon is higher.
+            assert!(Ray::cut(medium, &RULE, 10.0, -0.0535).ground.is_some());
+            let horizon = medium.geometry.horizon(10.0);
+            assert!(Ray::cut(medium, &RULE, 10.0, horizon.sin() - 1e-6).ground.is_some());
+            assert!(Ray::cut(medium, &RULE, 10.0, horizon.sin() + 1e-6).ground.is_none());
+        });
+    }
+
+    #[test]
+    fn the_source_turns_with_the_vertical() {
+        // Half-way round: what was overhead is underfoot.
+        let source = Source::new(0.6, 0.0, 1.0);
+        let half = (0.0, -1.0);
+        assert!((source.local_cosine(half) + 0.6).abs() < 1e-12);
+        assert!((source.local_level(half) + 0.8).abs() < 1e-12);
+        // Moving towards the source raises it.
+        let step = 0.1f64.sin_cos();
+        assert!(source.local_cosine(step) > 0.6);
     }
 }

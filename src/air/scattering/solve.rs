@@ -14,9 +14,9 @@ use super::harmonics::{
     MAX_COEFFICIENTS, MAX_DEGREE, azimuthal_part, gauss_legendre, index, zonal_part,
 };
 use super::lanes::Lanes;
-use super::profile::Optics;
-use super::rays::{Geometry, Medium, Ray, RaySteps};
-use super::view::{Source, add_higher_orders, cos_horizon, first_order};
+use super::rays::{Medium, Ray, RaySteps, Source};
+use super::view::{add_higher_orders, first_order};
+use crate::air::EARTH_RADIUS_KM;
 
 /// The iteration ends here if it has not converged before.
 const MOST_ITERATIONS: usize = 30;
@@ -81,7 +81,9 @@ impl Sweep {
         let mut starts = Vec::new();
         for &height_km in medium.altitudes_km {
             // Dense next to the horizon, on both sides of it.
-            let horizon = cos_horizon(height_km);
+            let ground_radius_km = medium.geometry.ground_radius_km();
+            let ratio = ground_radius_km / (EARTH_RADIUS_KM + height_km);
+            let horizon = -(1.0 - ratio * ratio).max(0.0).sqrt();
             for (t, w) in gauss_legendre(directions.above) {
                 let span = 1.0 - horizon;
                 starts.push((height_km, horizon + span * t * t, span * 2.0 * t * w));
@@ -180,26 +182,22 @@ impl Sweep {
     /// `K`: moments of what the field sends along all rays.
     fn gather(&self, medium: &Medium, field: &Field) -> Moments {
         self.moments(field, |ray, sources, out| {
-            let mut row = vec![Lanes::ZERO; field.row_len()];
-            add_higher_orders(medium, field, ray, sources, &mut row, out);
+            add_higher_orders(medium, field, ray, sources, &mut field.step_field(), out);
         })
     }
 }
 
-/// The diffuse field of a distant source of unit irradiance.
-pub(crate) fn solve(geometry: &Geometry, optics: &Optics, resolution: &Resolution) -> Field {
-    let field = Field::new(resolution.degree, resolution.altitudes);
-    let altitudes_km = field.altitudes_km.clone();
-    let medium =
-        Medium { geometry, optics, altitudes_km: &altitudes_km, degree: resolution.degree };
-    let first =
-        Sweep::new(&medium, &resolution.first_order).moments(&field, |ray, sources, out| {
-            for (source, out) in sources.iter().zip(out.iter_mut()) {
-                *out = first_order(&medium, ray, *source);
-            }
-        });
-    let sweep = Sweep::new(&medium, &resolution.higher_orders);
-    iterate(&medium, &sweep, &first, field, resolution.tolerance)
+/// The diffuse field of a distant source of unit irradiance. Rays are straight but for those of the
+/// source.
+pub(crate) fn solve(medium: &Medium, field: Field, resolution: &Resolution) -> Field {
+    let first = Sweep::new(medium, &resolution.first_order).moments(&field, |ray, sources, out| {
+        for (source, out) in sources.iter().zip(out.iter_mut()) {
+            let light = first_order(medium, ray, source);
+            *out = light.smooth + light.haze;
+        }
+    });
+    let sweep = Sweep::new(medium, &resolution.higher_orders);
+    iterate(medium, &sweep, &first, field, resolution.tolerance)
 }
 
 /// Fixed point of `M = first + K M`, to a change of `ln M_00` below `tolerance`.
@@ -223,64 +221,4 @@ fn iterate(
         }
     }
     field
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::Quality;
-    use super::super::profile::Profile;
-    use super::*;
-    use crate::air::Atmosphere;
-
-    /// Inside a uniformly bright sky, over white ground, where nothing absorbs, all is equally bright.
-    ///
-    /// The light that comes straight from the sky fills in what scattering takes from it: much of
-    /// the radiance below is a field that depends on height and direction, solved as for the Sun.
-    #[test]
-    fn a_uniform_sky_stays_uniform() {
-        let mut air = Atmosphere::molecular();
-        (air.ozone.column_du, air.ground.albedo) = (0.0, 1.0);
-        let geometry = Geometry::new(Profile::new(&air));
-        let optics = Optics::new(&air, 1.0, &[400.0, 500.0]);
-        // Coarse: every node is solved here for the same sky as often as there are sources.
-        let preview = Quality::PREVIEW.molecular;
-        let directions = Directions { azimuths: 3, ..preview.higher_orders };
-        let resolution = Resolution { altitudes: 12, higher_orders: directions, ..preview };
-        let mut direct = Field::new(resolution.degree, resolution.altitudes);
-        let altitudes_km = direct.altitudes_km.clone();
-        let medium =
-            Medium { geometry: &geometry, optics: &optics, altitudes_km: &altitudes_km, degree: 2 };
-        let from_space = |ray: &Ray| match ray.ground_km {
-            Some(_) => Lanes::ZERO,
-            None => ray.transmittance,
-        };
-        let unscattered = Sweep::new(&medium, &resolution.higher_orders)
-            .moments(&direct, |ray, _, out| out.fill(from_space(ray)));
-        direct.set(&unscattered.moments, &unscattered.ground);
-        let sweep = Sweep::new(&medium, &resolution.higher_orders);
-        let first = sweep.gather(&medium, &direct);
-        let field = iterate(&medium, &sweep, &first, direct.clone(), 1e-3);
-
-        let mut row = vec![Lanes::ZERO; field.row_len()];
-        for (height_km, cos_view) in [
-            (0.0, 1.0),
-            (0.0, 0.3),
-            (0.0, 0.02),
-            (3.0, 0.1),
-            (3.0, -0.5),
-            (20.0, -0.05),
-            (20.0, -0.9),
-        ] {
-            let ray = Ray::cut(&medium, &resolution.view, height_km, cos_view);
-            let source = Source::new(0.3, cos_view, 0.2);
-            let mut radiance = [from_space(&ray)];
-            for part in [&direct, &field] {
-                add_higher_orders(&medium, part, &ray, &[source], &mut row, &mut radiance);
-            }
-            for lane in [0, 1] {
-                let radiance = radiance[0].0[lane];
-                assert!((radiance - 1.0).abs() < 5e-3, "{height_km} km, {cos_view}: {radiance}");
-            }
-        }
-    }
 }
