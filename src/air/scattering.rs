@@ -365,7 +365,7 @@ impl ScatteringTables {
             .iter()
             .map(|&a| Source::new(cos_sun, ray.cos_zenith, a).raised(raised, ray.cos_zenith, a))
             .collect();
-        let first: Vec<FirstOrder> = sources.iter().map(|s| first_order(&medium, ray, s)).collect();
+        let first = first_order(&medium, ray, &sources);
         let mut smooth: Vec<Lanes> = first.iter().map(|light| light.smooth).collect();
         let mut scratch = band.field.step_field();
         add_higher_orders(&medium, &band.field, ray, &sources, &mut scratch, &mut smooth);

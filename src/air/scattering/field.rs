@@ -165,6 +165,7 @@ impl Field {
     /// What the field scatters along its ray in a step, for the sources of `range`.
     ///
     /// Where there is no haze, only the degrees 0 and 2 count.
+    #[inline(always)]
     pub fn at_step(&self, step: &Step, range: Range<usize>, out: &mut StepField) {
         let stride = self.stride();
         let at = step.altitude;

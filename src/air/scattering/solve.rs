@@ -191,8 +191,7 @@ impl Sweep {
 /// source.
 pub(crate) fn solve(medium: &Medium, field: Field, resolution: &Resolution) -> Field {
     let first = Sweep::new(medium, &resolution.first_order).moments(&field, |ray, sources, out| {
-        for (source, out) in sources.iter().zip(out.iter_mut()) {
-            let light = first_order(medium, ray, source);
+        for (light, out) in first_order(medium, ray, sources).iter().zip(out.iter_mut()) {
             *out = light.smooth + light.haze;
         }
     });

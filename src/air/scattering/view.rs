@@ -4,10 +4,13 @@
 //! light of the source as it arrives at each step.
 
 use std::f64::consts::PI;
+use std::ops::Range;
+
+use multiversion::multiversion;
 
 use super::field::{Field, StepField};
 use super::lanes::Lanes;
-use super::rays::{Medium, Ray, Source};
+use super::rays::{Medium, Ray, Source, Step};
 
 /// Light that has been scattered once or reflected once by the ground.
 #[derive(Debug, Clone, Copy)]
@@ -26,9 +29,14 @@ pub(crate) fn direct_on_ground(medium: &Medium, mu_s: f64) -> Lanes {
     medium.source.irradiance(&medium.source.row(ground_km), mu_s) * sine.max(0.0) as f32
 }
 
-/// Light of the source scattered once, or reflected once by the ground, per unit irradiance.
+/// Light of each source scattered once, or reflected once by the ground, per unit irradiance.
+#[multiversion(targets("x86_64+avx2"))]
+pub(crate) fn first_order(medium: &Medium, ray: &Ray, sources: &[Source]) -> Vec<FirstOrder> {
+    sources.iter().map(|source| first_order_of(medium, ray, source)).collect()
+}
+
 #[inline(always)]
-pub(crate) fn first_order(medium: &Medium, ray: &Ray, source: &Source) -> FirstOrder {
+fn first_order_of(medium: &Medium, ray: &Ray, source: &Source) -> FirstOrder {
     let phases = medium.optics.phases(source.nu);
     let (mut smooth, mut haze) = (Lanes::ZERO, Lanes::ZERO);
     for step in &ray.steps {
@@ -50,7 +58,6 @@ pub(crate) fn first_order(medium: &Medium, ray: &Ray, source: &Source) -> FirstO
 /// Adds the light of the field, scattered along the ray or reflected at its end, for each source.
 ///
 /// Steps are the outer loop: the field is brought to a step once for all sources.
-#[inline(always)]
 pub(crate) fn add_higher_orders(
     medium: &Medium,
     field: &Field,
@@ -67,15 +74,28 @@ pub(crate) fn add_higher_orders(
             high = high.max(mu_s);
         }
         let range = field.sources.bracket(low).index..field.sources.bracket(high).index + 2;
-        field.at_step(step, range, scratch);
-        for (source, out) in sources.iter().zip(out.iter_mut()) {
-            *out += field.scattered(step, scratch, source);
-        }
+        scatter(field, step, range, sources, scratch, out);
     }
     if let Some(hit) = &ray.ground {
         let reflected = ray.transmittance * (medium.optics.ground_albedo / PI) as f32;
         for (source, out) in sources.iter().zip(out.iter_mut()) {
             *out += reflected * field.ground_irradiance(source.local_cosine(hit.turn));
         }
+    }
+}
+
+/// Adds what the field scatters in one step.
+#[multiversion(targets("x86_64+avx2"))]
+fn scatter(
+    field: &Field,
+    step: &Step,
+    range: Range<usize>,
+    sources: &[Source],
+    scratch: &mut StepField,
+    out: &mut [Lanes],
+) {
+    field.at_step(step, range, scratch);
+    for (source, out) in sources.iter().zip(out.iter_mut()) {
+        *out += field.scattered(step, scratch, source);
     }
 }
