@@ -37,6 +37,10 @@ pub mod frame;
 pub mod image;
 pub mod units;
 
+// What takes long: beside what is seen, and once.
+pub mod background;
+pub mod store;
+
 // When, where, with what eyes and from what data.
 pub mod camera;
 pub mod catalog;

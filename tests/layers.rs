@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Lowest first. `light::spectrum` stands below the rest of its module: the air is told in spectra.
 const RANKS: [&[&str]; 11] = [
-    &["units", "frame", "image"],
+    &["units", "frame", "image", "store", "background"],
     &["time", "place", "catalog", "camera"],
     &["ephemeris"],
     &["sky", "almanac", "light::spectrum"],
@@ -27,8 +27,8 @@ const RANKS: [&[&str]; 11] = [
 const DOORS: [(&str, &[&str]); 5] = [
     ("wgpu", &["render"]),
     ("clap", &["cli", "bin"]),
-    ("fs::read", &["catalog", "cli", "bin", "export"]),
-    ("File::open", &["catalog", "cli", "bin", "export"]),
+    ("fs::read", &["store", "catalog", "cli", "bin", "export"]),
+    ("File::open", &["store", "catalog", "cli", "bin", "export"]),
     ("read_to_string", &["catalog", "cli", "bin", "export"]),
 ];
 

@@ -7,6 +7,8 @@ use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{
     Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
 };
+use nocturne::background::Interrupt;
+use nocturne::store::Store;
 use nocturne::units::Angle;
 
 const WAVELENGTHS_NM: [f64; 3] = [450.0, 550.0, 650.0];
@@ -214,4 +216,42 @@ fn what_cannot_be_solved_is_refused() {
     let mut no_number = fine;
     no_number.ozone.column_du = f64::NAN;
     assert!(matches!(solve(no_number, &[550.0]), ScatteringError::Air(_)));
+}
+
+#[test]
+fn what_was_solved_once_is_not_solved_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::in_folder(folder.path(), 1 << 24);
+    let air = Atmosphere::molecular();
+    let get = |air: &Atmosphere, interrupt: &Interrupt| {
+        let nodes = &SKY_NODES_NM;
+        ScatteringTables::stored(air, 0.0, nodes, Quality::PREVIEW, &store, interrupt).unwrap()
+    };
+    let radiance = |tables: ScatteringTables| {
+        let mut out = [0.0; 8];
+        tables.radiance(0.0, 0.1, Angle::from_deg(20.0), Angle::from_deg(50.0), &mut out);
+        out
+    };
+    let (never, at_once) = (Interrupt::default(), Interrupt::default());
+    at_once.raise();
+    assert!(get(&air, &at_once).is_none());
+    let solved = get(&air, &never).expect("nothing interrupts");
+    // Now even who has no time gets it, and it is the same to the last bit.
+    let found = get(&air, &at_once).expect("it is in the store");
+    assert_eq!(radiance(solved), radiance(found));
+    // Other air is another matter; weather that does not change it is not.
+    let mut warmer = air.clone();
+    warmer.observer.temperature_c = 30.0;
+    assert!(get(&warmer, &at_once).is_some());
+    let mut greener = air.clone();
+    greener.ground.albedo = 0.2;
+    assert!(get(&greener, &at_once).is_none());
+    // A damaged block is solved again.
+    for entry in std::fs::read_dir(folder.path()).unwrap() {
+        let path = entry.unwrap().path();
+        let mut block = std::fs::read(&path).unwrap();
+        block[100] ^= 1;
+        std::fs::write(path, block).unwrap();
+    }
+    assert!(get(&air, &at_once).is_none() && get(&air, &never).is_some());
 }

@@ -33,6 +33,8 @@ mod view;
 use rayon::prelude::*;
 
 use crate::air::{AirError, Atmosphere};
+use crate::background::Interrupt;
+use crate::store::{Key, Store};
 use crate::units::Angle;
 use field::Field;
 use lanes::{LANES, Lanes};
@@ -56,6 +58,8 @@ pub enum ScatteringError {
     NoWavelengths,
     #[error("air: {0}")]
     Resolution(&'static str),
+    #[error("air: the work was interrupted; ask again")]
+    Interrupted,
 }
 
 /// Sizes of the tables of one kind of air.
@@ -208,6 +212,8 @@ struct Band {
     field: Field,
 }
 
+/// Changes whenever the same air is solved to other numbers: what is stored is then left alone.
+const VERSION: &str = "diffuse field 1";
 /// Angular radius of the Sun at its mean distance, and near enough of the Moon, if a source is a disc.
 const DISC_RADIUS: Angle = Angle::from_deg(0.2666);
 /// Refractivity of air at sea level in the US Standard Atmosphere, at 550 nm (Edlen 1966).
@@ -261,6 +267,22 @@ impl ScatteringTables {
         wavelengths_nm: &[f64],
         quality: Quality,
     ) -> Result<ScatteringTables, ScatteringError> {
+        let never = Interrupt::default();
+        let tables =
+            ScatteringTables::stored(air, height_m, wavelengths_nm, quality, &Store::NONE, &never)?;
+        tables.ok_or(ScatteringError::Interrupted)
+    }
+
+    /// The same, taken from the store if it has been solved before and kept there if not; none if it
+    /// was interrupted.
+    pub fn stored(
+        air: &Atmosphere,
+        height_m: f64,
+        wavelengths_nm: &[f64],
+        quality: Quality,
+        store: &Store,
+        interrupt: &Interrupt,
+    ) -> Result<Option<ScatteringTables>, ScatteringError> {
         air.validate()?;
         let resolution = quality.of(air);
         resolution.check()?;
@@ -278,12 +300,23 @@ impl ScatteringTables {
         let disc_radius = if air.paths.source_disc { DISC_RADIUS } else { Angle::ZERO };
         let beams = Beams::new(&geometry.profile, ground_km, refractivity, disc_radius);
         let straight = geometry.straight();
-        let bands = wavelengths_nm
-            .chunks(LANES)
-            .map(|chunk| {
-                let optics = Optics::new(air, density_ratio, chunk);
-                let source = SourceTable::new(&beams, &optics);
-                let field = Field::new(resolution.degree, ground_km, resolution.altitudes);
+        let mut bands = Vec::with_capacity(wavelengths_nm.len().div_ceil(LANES));
+        for chunk in wavelengths_nm.chunks(LANES) {
+            let optics = Optics::new(air, density_ratio, chunk);
+            let source = SourceTable::new(&beams, &optics);
+            let mut field = Field::new(resolution.degree, ground_km, resolution.altitudes);
+            let key = Key::of(&[
+                VERSION.as_bytes(),
+                // All that the field depends on, in words: numbers as they are written are exact.
+                format!("{:?} {:?}", air.aerosols(), air.ozone).as_bytes(),
+                format!("{ground_km} {} {:?}", air.ground.albedo, air.paths).as_bytes(),
+                format!("{density_ratio} {chunk:?} {resolution:?}").as_bytes(),
+            ]);
+            let kept = store.get(&key).filter(|block| block.len() == 4 * field.solved_len());
+            if let Some(block) = kept {
+                let numbers = block.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b));
+                field.restore(numbers);
+            } else {
                 let altitudes_km = field.altitudes_km.clone();
                 let medium = Medium {
                     geometry: &straight,
@@ -293,17 +326,22 @@ impl ScatteringTables {
                     altitudes_km: &altitudes_km,
                     degree: resolution.degree,
                 };
-                let field = solve::solve(&medium, field, &resolution);
-                Band { optics, source, field }
-            })
-            .collect();
-        Ok(ScatteringTables {
+                let Some(solved) = solve::solve(&medium, field, &resolution, interrupt) else {
+                    return Ok(None);
+                };
+                field = solved;
+                let block: Vec<u8> = field.solved().flat_map(f32::to_le_bytes).collect();
+                store.put(&key, &block);
+            }
+            bands.push(Band { optics, source, field });
+        }
+        Ok(Some(ScatteringTables {
             wavelengths_nm: wavelengths_nm.to_vec(),
             view: resolution.view,
             geometry,
             beams,
             bands,
-        })
+        }))
     }
 
     /// The wavelengths solved for, nm, in the order of all results.

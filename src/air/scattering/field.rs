@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use super::harmonics::{azimuthal_part, coefficient_count, index};
-use super::lanes::Lanes;
+use super::lanes::{LANES, Lanes};
 use super::profile::TOP_KM;
 use super::rays::{Bracket, Source, Step};
 
@@ -129,6 +129,23 @@ impl Field {
     /// Scratch for [`Field::at_step`].
     pub fn step_field(&self) -> StepField {
         StepField(vec![Lanes::ZERO; self.sources.len() * self.step_stride()])
+    }
+
+    /// All numbers that were solved for, in order.
+    pub fn solved(&self) -> impl Iterator<Item = f32> + '_ {
+        self.moments.iter().chain(&self.ln_ground).flat_map(|lanes| lanes.0)
+    }
+
+    /// How many numbers [`Field::solved`] gives.
+    pub fn solved_len(&self) -> usize {
+        (self.moments.len() + self.ln_ground.len()) * LANES
+    }
+
+    /// Takes the numbers of [`Field::solved`] back.
+    pub fn restore(&mut self, mut solved: impl Iterator<Item = f32>) {
+        for lanes in self.moments.iter_mut().chain(&mut self.ln_ground) {
+            lanes.0.fill_with(|| solved.next().unwrap_or(0.0));
+        }
     }
 
     /// Takes moments `[altitude][source][coefficient]` and irradiances of the ground `[source]`.

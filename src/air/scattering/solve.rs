@@ -17,6 +17,7 @@ use super::lanes::Lanes;
 use super::rays::{Medium, Ray, RaySteps, Source};
 use super::view::{add_higher_orders, first_order};
 use crate::air::EARTH_RADIUS_KM;
+use crate::background::Interrupt;
 
 /// The iteration ends here if it has not converged before.
 const MOST_ITERATIONS: usize = 30;
@@ -109,6 +110,7 @@ impl Sweep {
     fn moments(
         &self,
         field: &Field,
+        interrupt: &Interrupt,
         radiance: impl Fn(&Ray, &[Source], &mut [Lanes]) + Sync,
     ) -> Moments {
         let cosines = &field.sources.cosines;
@@ -125,7 +127,9 @@ impl Sweep {
                     })
                     .collect();
                 let mut out = vec![Lanes::ZERO; sources.len()];
-                radiance(&spoke.ray, &sources, &mut out);
+                if !interrupt.is_raised() {
+                    radiance(&spoke.ray, &sources, &mut out);
+                }
                 out
             })
             .collect();
@@ -180,23 +184,29 @@ impl Sweep {
     }
 
     /// `K`: moments of what the field sends along all rays.
-    fn gather(&self, medium: &Medium, field: &Field) -> Moments {
-        self.moments(field, |ray, sources, out| {
+    fn gather(&self, medium: &Medium, field: &Field, interrupt: &Interrupt) -> Moments {
+        self.moments(field, interrupt, |ray, sources, out| {
             add_higher_orders(medium, field, ray, sources, &mut field.step_field(), out);
         })
     }
 }
 
-/// The diffuse field of a distant source of unit irradiance. Rays are straight but for those of the
-/// source.
-pub(crate) fn solve(medium: &Medium, field: Field, resolution: &Resolution) -> Field {
-    let first = Sweep::new(medium, &resolution.first_order).moments(&field, |ray, sources, out| {
+/// The diffuse field of a distant source of unit irradiance, or none if it was interrupted. Rays are
+/// straight but for those of the source.
+pub(crate) fn solve(
+    medium: &Medium,
+    field: Field,
+    resolution: &Resolution,
+    interrupt: &Interrupt,
+) -> Option<Field> {
+    let sweep = Sweep::new(medium, &resolution.first_order);
+    let first = sweep.moments(&field, interrupt, |ray, sources, out| {
         for (light, out) in first_order(medium, ray, sources).iter().zip(out.iter_mut()) {
             *out = light.smooth + light.haze;
         }
     });
     let sweep = Sweep::new(medium, &resolution.higher_orders);
-    iterate(medium, &sweep, &first, field, resolution.tolerance)
+    iterate(medium, &sweep, &first, field, resolution.tolerance, interrupt)
 }
 
 /// Fixed point of `M = first + K M`, to a change of `ln M_00` below `tolerance`.
@@ -206,18 +216,22 @@ fn iterate(
     first: &Moments,
     mut field: Field,
     tolerance: f32,
-) -> Field {
+    interrupt: &Interrupt,
+) -> Option<Field> {
     let add = |a: &[Lanes], b: &[Lanes]| -> Vec<Lanes> {
         a.iter().zip(b).map(|(&a, &b)| a + b).collect()
     };
     field.set(&first.moments, &first.ground);
     for _ in 0..MOST_ITERATIONS {
-        let higher = sweep.gather(medium, &field);
+        let higher = sweep.gather(medium, &field, interrupt);
+        if interrupt.is_raised() {
+            return None;
+        }
         let moments = add(&first.moments, &higher.moments);
         let ground = add(&first.ground, &higher.ground);
         if field.set(&moments, &ground) < tolerance {
             break;
         }
     }
-    field
+    Some(field)
 }
