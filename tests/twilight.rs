@@ -103,11 +103,13 @@ fn moonlight_is_as_bright_as_the_sky_models_of_observatories() {
     // A clear night at the sea; and Paranal, with 0.05 of aerosol above it.
     let mut paranal = Atmosphere::default();
     paranal.aerosol.optical_depth_550 = 0.05 * (2.635f64 / 1.2).exp();
-    for (site, sky) in [("sea", Sky::over(30.0)), ("Paranal", Sky::of(paranal, 2635.0))] {
+    for (site, sky, faintest) in
+        [("sea", Sky::over(30.0), 18.4), ("Paranal", Sky::of(paranal, 2635.0), 18.5)]
+    {
         // The zenith is 45 degrees away.
         let ours = sky.luminance_cd_m2(&moon, 45.0, 90.0, 0.0) + night_cd_m2;
         let mag = 12.58 + magnitudes(ours);
         println!("{site}: {mag:.2} mag per square arcsecond");
-        assert!((17.7..18.4).contains(&mag), "{site}: {mag}");
+        assert!((17.7..faintest).contains(&mag), "{site}: {mag}");
     }
 }
