@@ -26,6 +26,8 @@ mod profile;
 mod rays;
 mod reconstruction;
 mod solve;
+#[allow(dead_code)]
+mod source;
 mod view;
 
 use rayon::prelude::*;
