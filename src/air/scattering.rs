@@ -75,8 +75,9 @@ pub struct Resolution {
     pub higher_orders: Directions,
     /// The iteration ends when no mean radiance changes by more than this part.
     pub tolerance: f32,
-    /// How view rays are cut.
+    /// How view rays are cut for light of the source, and for light of the field.
     pub view: RaySteps,
+    pub view_field: RaySteps,
 }
 
 /// How good tables are to be: one size for air with aerosol, one for air without.
@@ -106,6 +107,7 @@ impl Quality {
             },
             tolerance: 5e-3,
             view: steps(80, 20.0, 3.0),
+            view_field: steps(40, 40.0, 10.0),
         },
         molecular: Resolution {
             degree: 2,
@@ -124,6 +126,7 @@ impl Quality {
             },
             tolerance: 5e-3,
             view: steps(80, 20.0, 20.0),
+            view_field: steps(40, 40.0, 40.0),
         },
     };
     /// For a quick look: degree 4 with aerosol, some per cent by day, 10 % or more in deep twilight.
@@ -145,6 +148,7 @@ impl Quality {
             },
             tolerance: 1e-2,
             view: steps(32, 50.0, 6.0),
+            view_field: steps(20, 60.0, 20.0),
         },
         molecular: Resolution {
             degree: 2,
@@ -163,6 +167,7 @@ impl Quality {
             },
             tolerance: 1e-2,
             view: steps(32, 50.0, 50.0),
+            view_field: steps(20, 60.0, 60.0),
         },
     };
 
@@ -194,7 +199,8 @@ impl Resolution {
                 );
             }
         }
-        for s in [&self.first_order.steps, &self.higher_orders.steps, &self.view] {
+        for s in [&self.first_order.steps, &self.higher_orders.steps, &self.view, &self.view_field]
+        {
             let is_length = |km: f64| km.is_finite() && km > 0.0;
             if s.levels == 0 || !is_length(s.longest_km) || !is_length(s.longest_in_aerosol_km) {
                 return refuse("rays need at least one level and steps longer than 0 km");
@@ -223,7 +229,7 @@ const SEA_LEVEL_REFRACTIVITY: f64 = 2.777e-4;
 #[derive(Debug, Clone)]
 pub struct ScatteringTables {
     wavelengths_nm: Vec<f64>,
-    view: RaySteps,
+    resolution: Resolution,
     geometry: Geometry,
     beams: Beams,
     bands: Vec<Band>,
@@ -337,7 +343,7 @@ impl ScatteringTables {
         }
         Ok(Some(ScatteringTables {
             wavelengths_nm: wavelengths_nm.to_vec(),
-            view: resolution.view,
+            resolution,
             geometry,
             beams,
             bands,
@@ -377,8 +383,10 @@ impl ScatteringTables {
         let rays = elevations
             .par_iter()
             .map(|elevation| {
-                let cut =
-                    |band| Ray::cut(&self.medium(band), &self.view, height_km, elevation.sin());
+                let Resolution { view, view_field, .. } = &self.resolution;
+                let cut = |band| {
+                    Ray::cut(&self.medium(band), view, view_field, height_km, elevation.sin())
+                };
                 self.bands.iter().map(cut).collect()
             })
             .collect();

@@ -11,7 +11,7 @@ use std::ops::Range;
 use super::harmonics::{azimuthal_part, coefficient_count, index};
 use super::lanes::{LANES, Lanes};
 use super::profile::TOP_KM;
-use super::rays::{Bracket, Source, Step};
+use super::rays::{Bracket, FieldStep, Source};
 
 /// Below this, a moment counts as dark: far under starlight, and safe in single precision.
 const DARK: f32 = 1e-34;
@@ -183,7 +183,7 @@ impl Field {
     ///
     /// Where there is no haze, only the degrees 0 and 2 count.
     #[inline(always)]
-    pub fn at_step(&self, step: &Step, range: Range<usize>, out: &mut StepField) {
+    pub fn at_step(&self, step: &FieldStep, range: Range<usize>, out: &mut StepField) {
         let stride = self.stride();
         let at = step.altitude;
         let sources = self.sources.len();
@@ -210,13 +210,13 @@ impl Field {
     }
 
     /// How many orders of azimuth a step has.
-    fn orders_at(&self, step: &Step) -> usize {
+    fn orders_at(&self, step: &FieldStep) -> usize {
         if step.is_hazy { self.degree + 1 } else { 3 }
     }
 
     /// Light of the field that a step scatters along its ray, from [`Field::at_step`].
     #[inline(always)]
-    pub fn scattered(&self, step: &Step, field: &StepField, source: &Source) -> Lanes {
+    pub fn scattered(&self, step: &FieldStep, field: &StepField, source: &Source) -> Lanes {
         let stride = self.step_stride();
         let mu_s = source.local_cosine(step.turn);
         let at = self.sources.bracket(mu_s);

@@ -76,32 +76,44 @@ impl Bracket {
     }
 }
 
-/// One step of a ray, seen at its sample point.
+/// Where a ray is, as its sources see it: by how much the vertical has turned since its start, sine and
+/// cosine.
+pub(crate) type Turn = (f64, f64);
+
+/// One step of a ray, as light is scattered there that comes straight from the source.
 #[derive(Debug, Clone)]
-pub(crate) struct Step {
-    /// By how much the vertical has turned since the start of the ray: sine and cosine.
-    pub turn: (f64, f64),
-    /// Sine of the angle between the ray and the vertical there.
-    pub sin_view: f64,
+pub(crate) struct BeamStep {
+    pub turn: Turn,
     /// Its height, prepared for the light of the source.
     pub row: SourceRow,
+    /// Weight of light scattered by each scatterer, each lane.
+    pub weights: [Lanes; SCATTERERS],
+    /// Whether aerosol counts here.
+    pub is_hazy: bool,
+}
+
+/// One step of a ray, as light of the field is scattered there.
+#[derive(Debug, Clone)]
+pub(crate) struct FieldStep {
+    pub turn: Turn,
+    /// Sine of the angle between the ray and the vertical there.
+    pub sin_view: f64,
     /// Its height between those of the field.
     pub altitude: Bracket,
     /// Harmonics of the direction of the ray there, but for azimuth.
     pub zonal: [f32; MAX_COEFFICIENTS],
-    /// Weight of light scattered by each scatterer, each lane.
-    pub weights: [Lanes; SCATTERERS],
-    /// By degree: the weights times the moments of the phase functions, summed.
+    /// By degree: the weights times the moments of the phase functions, summed over the scatterers.
     pub by_degree: [Lanes; MAX_DEGREE + 1],
     /// Whether aerosol counts here.
     pub is_hazy: bool,
 }
 
-/// Where a ray meets the ground.
+/// How a ray ends.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct GroundHit {
-    /// As in [`Step`].
-    pub turn: (f64, f64),
+pub(crate) struct End {
+    pub transmittance: Lanes,
+    /// Where it meets the ground, if it does.
+    pub ground: Option<Turn>,
 }
 
 /// A ray, cut.
@@ -109,11 +121,9 @@ pub(crate) struct GroundHit {
 pub(crate) struct Ray {
     /// Cosine of its zenith distance at its start.
     pub cos_zenith: f64,
-    pub steps: Vec<Step>,
-    /// Transmittance to its end.
-    pub transmittance: Lanes,
-    /// Its end, if that is the ground.
-    pub ground: Option<GroundHit>,
+    pub beam: Vec<BeamStep>,
+    pub field: Vec<FieldStep>,
+    pub end: End,
 }
 
 /// What a ray is cut in: layers, coefficients, the source, the heights and the degree of the field.
@@ -158,59 +168,110 @@ impl Source {
 
     /// Cosine of the source's zenith distance where the vertical has turned.
     #[inline(always)]
-    pub fn local_cosine(&self, (sin_turn, cos_turn): (f64, f64)) -> f64 {
+    pub fn local_cosine(&self, (sin_turn, cos_turn): Turn) -> f64 {
         (cos_turn * self.cos_zenith + sin_turn * self.level).clamp(-1.0, 1.0)
     }
 
     /// Its part along the local horizontal there.
     #[inline(always)]
-    pub fn local_level(&self, (sin_turn, cos_turn): (f64, f64)) -> f64 {
+    pub fn local_level(&self, (sin_turn, cos_turn): Turn) -> f64 {
         cos_turn * self.level - sin_turn * self.cos_zenith
     }
 }
 
+/// A step, before it is known what for.
+struct Step {
+    height_km: f64,
+    cos_view: f64,
+    turn: Turn,
+    weights: [Lanes; SCATTERERS],
+    is_hazy: bool,
+}
+
 impl Ray {
-    pub fn cut(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
-        let Geometry { profile, ground_km, refractivity } = medium.geometry;
-        let optics = medium.optics;
-        let path = Path::new(profile, *refractivity, height_km, cos_zenith);
-        let (cuts, hits_ground) = cuts(rule, optics.has_aerosol, &path, *ground_km);
+    /// Cut for light of the source by one rule, for light of the field by another, coarser one.
+    pub fn cut(
+        medium: &Medium,
+        beam_rule: &RaySteps,
+        field_rule: &RaySteps,
+        height_km: f64,
+        cos_zenith: f64,
+    ) -> Ray {
+        let beam = Ray::for_beam(medium, beam_rule, height_km, cos_zenith);
+        Ray { field: Ray::for_field(medium, field_rule, height_km, cos_zenith).field, ..beam }
+    }
 
-        let mut depth = [0.0; LANES];
-        let mut turn_rad = 0.0;
-        let mut steps = Vec::with_capacity(cuts.len());
-        for ends in cuts.windows(2) {
-            let (from, to) = (path.point(ends[0]), path.point(ends[1]));
-            let (columns, turned_rad) = path.between(&from, &to);
-            let at_end = |height_km: f64| optics.mean_scattering(profile.density(height_km));
-            let ((mol_a, aer_a), (mol_b, aer_b)) = (at_end(from.height_km), at_end(to.height_km));
-            let (rho_a, rho_b) = (mol_a + aer_a, mol_b + aer_b);
-            let share = (rho_a + 2.0 * rho_b) / (3.0 * (rho_a + rho_b));
-            let sample = path.point(from.u_km + (to.u_km - from.u_km) * share);
-
-            let weights = scatter_weights(optics, &columns, &mut depth);
-            let cos_view = path.cosine_at(&sample);
-            let height_km = sample.height_km.clamp(*ground_km, TOP_KM);
-            steps.push(Step {
-                turn: (turn_rad + turned_rad * share).sin_cos(),
-                sin_view: (1.0 - cos_view * cos_view).max(0.0).sqrt(),
-                row: medium.source.row(height_km),
-                altitude: Bracket::of(medium.altitudes_km, height_km),
-                zonal: zonal_part(medium.degree, cos_view),
-                weights,
-                by_degree: optics
-                    .moments
-                    .map(|m| weights[0] * m[0] + weights[1] * m[1] + weights[2] * m[2]),
-                is_hazy: aer_a.max(aer_b) > NEGLIGIBLE_AEROSOL * mol_a.min(mol_b),
+    /// Cut for light of the source alone.
+    pub fn for_beam(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
+        let mut beam = Vec::new();
+        let end = walk(medium, rule, height_km, cos_zenith, |step| {
+            beam.push(BeamStep {
+                turn: step.turn,
+                row: medium.source.row(step.height_km),
+                weights: step.weights,
+                is_hazy: step.is_hazy,
             });
-            turn_rad += turned_rad;
-        }
-        Ray {
-            cos_zenith,
-            steps,
-            transmittance: Lanes::from_fn(|i| (-depth[i]).exp()),
-            ground: hits_ground.then(|| GroundHit { turn: turn_rad.sin_cos() }),
-        }
+        });
+        Ray { cos_zenith, beam, field: Vec::new(), end }
+    }
+
+    /// Cut for light of the field alone.
+    pub fn for_field(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
+        let mut field = Vec::new();
+        let end = walk(medium, rule, height_km, cos_zenith, |step| {
+            let [a, b, c] = step.weights;
+            field.push(FieldStep {
+                turn: step.turn,
+                sin_view: (1.0 - step.cos_view * step.cos_view).max(0.0).sqrt(),
+                altitude: Bracket::of(medium.altitudes_km, step.height_km),
+                zonal: zonal_part(medium.degree, step.cos_view),
+                by_degree: medium.optics.moments.map(|m| a * m[0] + b * m[1] + c * m[2]),
+                is_hazy: step.is_hazy,
+            });
+        });
+        Ray { cos_zenith, beam: Vec::new(), field, end }
+    }
+}
+
+/// Follows a ray in steps from its start.
+fn walk(
+    medium: &Medium,
+    rule: &RaySteps,
+    height_km: f64,
+    cos_zenith: f64,
+    mut visit: impl FnMut(Step),
+) -> End {
+    let Geometry { profile, ground_km, refractivity } = medium.geometry;
+    let optics = medium.optics;
+    let path = Path::new(profile, *refractivity, height_km, cos_zenith);
+    let (cuts, hits_ground) = cuts(rule, optics.has_aerosol, &path, *ground_km);
+    let end_of = |u_km: f64| {
+        let point = path.point(u_km);
+        (point, optics.mean_scattering(profile.density(point.height_km)))
+    };
+
+    let mut depth = [0.0; LANES];
+    let mut turn_rad = 0.0;
+    let mut to = end_of(cuts[0]);
+    for &cut in &cuts[1..] {
+        let from = std::mem::replace(&mut to, end_of(cut));
+        let (columns, turned_rad) = path.between(&from.0, &to.0);
+        let ((mol_a, aer_a), (mol_b, aer_b)) = (from.1, to.1);
+        let (rho_a, rho_b) = (mol_a + aer_a, mol_b + aer_b);
+        let share = (rho_a + 2.0 * rho_b) / (3.0 * (rho_a + rho_b));
+        let sample = path.point(from.0.u_km + (to.0.u_km - from.0.u_km) * share);
+        visit(Step {
+            height_km: sample.height_km.clamp(*ground_km, TOP_KM),
+            cos_view: path.cosine_at(&sample),
+            turn: (turn_rad + turned_rad * share).sin_cos(),
+            weights: scatter_weights(optics, &columns, &mut depth),
+            is_hazy: aer_a.max(aer_b) > NEGLIGIBLE_AEROSOL * mol_a.min(mol_b),
+        });
+        turn_rad += turned_rad;
+    }
+    End {
+        transmittance: Lanes::from_fn(|i| (-depth[i]).exp()),
+        ground: hits_ground.then(|| turn_rad.sin_cos()),
     }
 }
 
@@ -313,9 +374,9 @@ mod tests {
                 for (height, mu) in
                     [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
                 {
-                    let ray = Ray::cut(medium, &RULE, height, mu);
-                    let mut sum = ray.transmittance;
-                    for step in &ray.steps {
+                    let ray = Ray::for_beam(medium, &RULE, height, mu);
+                    let mut sum = ray.end.transmittance;
+                    for step in &ray.beam {
                         step.weights.iter().for_each(|&weight| sum += weight);
                     }
                     for value in sum.0 {
@@ -330,12 +391,12 @@ mod tests {
     fn transmittance_is_that_of_the_columns() {
         with_medium(&Atmosphere::default(), 0.0, |medium| {
             for (height, mu) in [(0.0, 0.3), (2.0, 0.0), (40.0, -0.08)] {
-                let ray = Ray::cut(medium, &RULE, height, mu);
+                let ray = Ray::for_beam(medium, &RULE, height, mu);
                 let columns = columns::to_space(&medium.geometry.profile, height, mu).unwrap();
                 let depth: f64 =
                     (0..SPECIES).map(|k| columns[k] * medium.optics.extinction[k][0]).sum();
-                assert!((f64::from(ray.transmittance.0[0]) - (-depth).exp()).abs() < 1e-6);
-                assert!(ray.ground.is_none());
+                assert!((f64::from(ray.end.transmittance.0[0]) - (-depth).exp()).abs() < 1e-6);
+                assert!(ray.end.ground.is_none());
             }
         });
     }
@@ -343,26 +404,26 @@ mod tests {
     #[test]
     fn rays_meet_the_ground_where_they_should() {
         with_medium(&Atmosphere::default(), 0.0, |medium| {
-            let down = Ray::cut(medium, &RULE, 10.0, -1.0);
-            assert!(down.ground.unwrap().turn.0.abs() < 1e-12);
-            let aslant = Ray::cut(medium, &RULE, 10.0, -0.1);
+            let down = Ray::for_beam(medium, &RULE, 10.0, -1.0);
+            assert!(down.end.ground.unwrap().0.abs() < 1e-12);
+            let aslant = Ray::for_beam(medium, &RULE, 10.0, -0.1);
             // Law of sines: the ray meets the ground at a steeper angle.
             let sin_ground = (1.0f64 - 0.01).sqrt() * 6381.0 / 6371.0;
             let turn = sin_ground.acos() - 0.1f64.asin();
-            assert!((aslant.ground.unwrap().turn.0 + turn.sin()).abs() < 1e-9, "{turn}");
-            let at_once = Ray::cut(medium, &RULE, 0.0, -0.3);
-            assert!(at_once.ground.is_some() && at_once.steps.is_empty());
+            assert!((aslant.end.ground.unwrap().0 + turn.sin()).abs() < 1e-9, "{turn}");
+            let at_once = Ray::for_beam(medium, &RULE, 0.0, -0.3);
+            assert!(at_once.end.ground.is_some() && at_once.beam.is_empty());
             // The horizon of 10 km lies 3.2 degrees below level.
-            assert!(Ray::cut(medium, &RULE, 10.0, -0.055).ground.is_none());
-            assert!(Ray::cut(medium, &RULE, 10.0, -0.057).ground.is_some());
+            assert!(Ray::for_beam(medium, &RULE, 10.0, -0.055).end.ground.is_none());
+            assert!(Ray::for_beam(medium, &RULE, 10.0, -0.057).end.ground.is_some());
             assert!((medium.geometry.horizon(10.0).deg() + 3.2087).abs() < 1e-3);
         });
         with_medium(&Atmosphere::default(), 2.777e-4, |medium| {
             // Bent light comes from further: the horizon is higher.
-            assert!(Ray::cut(medium, &RULE, 10.0, -0.0535).ground.is_some());
+            assert!(Ray::for_beam(medium, &RULE, 10.0, -0.0535).end.ground.is_some());
             let horizon = medium.geometry.horizon(10.0);
-            assert!(Ray::cut(medium, &RULE, 10.0, horizon.sin() - 1e-6).ground.is_some());
-            assert!(Ray::cut(medium, &RULE, 10.0, horizon.sin() + 1e-6).ground.is_none());
+            assert!(Ray::for_beam(medium, &RULE, 10.0, horizon.sin() - 1e-6).end.ground.is_some());
+            assert!(Ray::for_beam(medium, &RULE, 10.0, horizon.sin() + 1e-6).end.ground.is_none());
         });
     }
 

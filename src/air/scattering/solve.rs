@@ -78,7 +78,11 @@ struct Moments {
 }
 
 impl Sweep {
-    fn new(medium: &Medium, directions: &Directions) -> Sweep {
+    fn new(
+        medium: &Medium,
+        directions: &Directions,
+        cut: impl Fn(&Medium, &RaySteps, f64, f64) -> Ray + Sync,
+    ) -> Sweep {
         let mut starts = Vec::new();
         for &height_km in medium.altitudes_km {
             // Dense next to the horizon, on both sides of it.
@@ -97,7 +101,7 @@ impl Sweep {
         let spokes = starts
             .into_par_iter()
             .map(|(height_km, cos_zenith, weight)| Spoke {
-                ray: Ray::cut(medium, &directions.steps, height_km, cos_zenith),
+                ray: cut(medium, &directions.steps, height_km, cos_zenith),
                 weight,
             })
             .collect();
@@ -199,13 +203,13 @@ pub(crate) fn solve(
     resolution: &Resolution,
     interrupt: &Interrupt,
 ) -> Option<Field> {
-    let sweep = Sweep::new(medium, &resolution.first_order);
+    let sweep = Sweep::new(medium, &resolution.first_order, Ray::for_beam);
     let first = sweep.moments(&field, interrupt, |ray, sources, out| {
         for (light, out) in first_order(medium, ray, sources).iter().zip(out.iter_mut()) {
             *out = light.smooth + light.haze;
         }
     });
-    let sweep = Sweep::new(medium, &resolution.higher_orders);
+    let sweep = Sweep::new(medium, &resolution.higher_orders, Ray::for_field);
     iterate(medium, &sweep, &first, field, resolution.tolerance, interrupt)
 }
 

@@ -10,7 +10,7 @@ use multiversion::multiversion;
 
 use super::field::{Field, StepField};
 use super::lanes::Lanes;
-use super::rays::{Medium, Ray, Source, Step};
+use super::rays::{FieldStep, Medium, Ray, Source};
 
 /// Light that has been scattered once or reflected once by the ground.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ pub(crate) fn first_order(medium: &Medium, ray: &Ray, sources: &[Source]) -> Vec
 fn first_order_of(medium: &Medium, ray: &Ray, source: &Source) -> FirstOrder {
     let phases = medium.optics.phases(source.nu);
     let (mut smooth, mut haze) = (Lanes::ZERO, Lanes::ZERO);
-    for step in &ray.steps {
+    for step in &ray.beam {
         let arriving = medium.source.irradiance(&step.row, source.local_cosine(step.turn));
         smooth += step.weights[0] * arriving;
         if step.is_hazy {
@@ -47,10 +47,10 @@ fn first_order_of(medium: &Medium, ray: &Ray, source: &Source) -> FirstOrder {
         }
     }
     smooth = smooth * phases[0];
-    if let Some(hit) = &ray.ground {
-        let mu_s = source.local_cosine(hit.turn);
+    if let Some(turn) = ray.end.ground {
+        let mu_s = source.local_cosine(turn);
         let reflected = (medium.optics.ground_albedo / PI) as f32;
-        smooth += ray.transmittance * direct_on_ground(medium, mu_s) * reflected;
+        smooth += ray.end.transmittance * direct_on_ground(medium, mu_s) * reflected;
     }
     FirstOrder { smooth, haze }
 }
@@ -66,7 +66,7 @@ pub(crate) fn add_higher_orders(
     scratch: &mut StepField,
     out: &mut [Lanes],
 ) {
-    for step in &ray.steps {
+    for step in &ray.field {
         let (mut low, mut high) = (1.0f64, -1.0f64);
         for source in sources {
             let mu_s = source.local_cosine(step.turn);
@@ -76,10 +76,10 @@ pub(crate) fn add_higher_orders(
         let range = field.sources.bracket(low).index..field.sources.bracket(high).index + 2;
         scatter(field, step, range, sources, scratch, out);
     }
-    if let Some(hit) = &ray.ground {
-        let reflected = ray.transmittance * (medium.optics.ground_albedo / PI) as f32;
+    if let Some(turn) = ray.end.ground {
+        let reflected = ray.end.transmittance * (medium.optics.ground_albedo / PI) as f32;
         for (source, out) in sources.iter().zip(out.iter_mut()) {
-            *out += reflected * field.ground_irradiance(source.local_cosine(hit.turn));
+            *out += reflected * field.ground_irradiance(source.local_cosine(turn));
         }
     }
 }
@@ -88,7 +88,7 @@ pub(crate) fn add_higher_orders(
 #[multiversion(targets("x86_64+avx2"))]
 fn scatter(
     field: &Field,
-    step: &Step,
+    step: &FieldStep,
     range: Range<usize>,
     sources: &[Source],
     scratch: &mut StepField,
