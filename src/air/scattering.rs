@@ -21,7 +21,6 @@ mod columns;
 mod field;
 mod harmonics;
 mod lanes;
-pub mod phase;
 mod profile;
 mod rays;
 mod reconstruction;

@@ -10,12 +10,12 @@
 
 use super::harmonics::MAX_DEGREE;
 use super::lanes::{LANES, Lanes};
-use super::phase;
 use crate::air::Atmosphere;
 use crate::air::aerosol::Aerosol;
 use crate::air::cross_section::{
     DOBSON_UNIT_PER_M2, ozone_cross_section_m2, rayleigh_cross_section_m2,
 };
+use crate::air::phase;
 pub use crate::air::{AIR_TOP_KM as TOP_KM, EARTH_RADIUS_KM};
 
 /// How many kinds of matter there are, and where each stands.

@@ -253,7 +253,7 @@ mod tests {
     fn what_is_not_transmitted_is_scattered_where_nothing_absorbs() {
         let mut air = Atmosphere::default();
         air.ozone.column_du = 0.0;
-        air.aerosol.single_scattering_albedo = 1.0;
+        air.aerosol.single_scattering_albedo = Some(1.0);
         with_medium(&air, |medium| {
             for (height, mu) in [(0.0, 1.0), (0.0, 0.0), (3.0, -0.5), (20.0, -0.06), (119.0, -0.1)]
             {
