@@ -13,6 +13,7 @@ use thiserror::Error;
 pub mod aerosol;
 pub mod cross_section;
 pub mod extinction;
+mod named;
 pub mod phase;
 mod ray;
 pub mod refraction;
@@ -115,6 +116,10 @@ impl Default for LightPaths {
 pub enum AirError {
     #[error("air: {what} is {value}, outside {low} to {high}; choose a value inside")]
     Range { what: String, value: f64, low: f64, high: f64 },
+    #[error("air: line {line}: {message}")]
+    Syntax { line: usize, message: String },
+    #[error("air: none is called '{name}'; {way_out}")]
+    Unknown { name: String, way_out: String },
     #[error(
         "air: {pressure_mbar} mbar at {height_m} m make air on the ground that bends light around the \
          Earth; give the pressure at the height of the observer"

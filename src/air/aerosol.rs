@@ -3,11 +3,13 @@
 //! An amount (optical depth at 550 nm), a law of wavelength (Angstrom's), a share that is scattered,
 //! a profile of height and a phase function: five fields of a file.
 
+mod kind;
 mod law;
 mod profile;
 
 use serde::{Deserialize, Serialize};
 
+pub use kind::MieKind;
 pub use law::PhaseLaw;
 pub use profile::AerosolProfile;
 
@@ -20,17 +22,21 @@ const USUAL_ALBEDO: f64 = 0.95;
 pub(crate) type Checked = (String, f64, f64, f64);
 
 /// One aerosol.
+///
+/// Between Rust structs mind that [`Aerosol::default`] gives exponent and albedo: a Mie kind that is
+/// to have its own wants `None` for both ([`Aerosol::mie`]).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Aerosol {
     /// Optical depth of the whole column above sea level at 550 nm: 0.02 on a mountain night, 0.1
     /// on a clear one, 0.5 in haze. 0 to 3.
     pub optical_depth_550: f64,
-    /// Exponent `a` of Angstrom's law, optical depth as `(l / 550 nm)^-a`; -1 to 4. 1.3 when left
-    /// out.
+    /// Exponent `a` of Angstrom's law, optical depth as `(l / 550 nm)^-a`; -1 to 4. Without it, a
+    /// Mie kind has its own law, everything else 1.3.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angstrom_exponent: Option<f64>,
-    /// Fraction of the light removed that is scattered, not absorbed; 0 to 1. 0.95 when left out.
+    /// Fraction of the light removed that is scattered, not absorbed; 0 to 1. Without it, a Mie
+    /// kind has its own, by wavelength, everything else 0.95.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub single_scattering_albedo: Option<f64>,
     /// How it lies over height.
@@ -52,6 +58,17 @@ impl Default for Aerosol {
 }
 
 impl Aerosol {
+    /// A shipped kind with its own extinction and albedo, in the profile of the default.
+    pub fn mie(kind: MieKind, optical_depth_550: f64) -> Aerosol {
+        Aerosol {
+            optical_depth_550,
+            angstrom_exponent: None,
+            single_scattering_albedo: None,
+            phase: PhaseLaw::Mie { kind },
+            ..Aerosol::default()
+        }
+    }
+
     /// Path, value and allowed range of every number; `name` is the path of the aerosol.
     pub(crate) fn ranges(&self, name: &str) -> Vec<Checked> {
         let exponent = self.angstrom_exponent.unwrap_or(USUAL_ANGSTROM_EXPONENT);
@@ -68,13 +85,21 @@ impl Aerosol {
 
     /// Optical depth of the whole column above sea level.
     pub fn optical_depth(&self, wavelength_nm: f64) -> f64 {
-        let exponent = self.angstrom_exponent.unwrap_or(USUAL_ANGSTROM_EXPONENT);
-        self.optical_depth_550 * (wavelength_nm / 550.0).powf(-exponent)
+        let relative = match (self.angstrom_exponent, &self.phase) {
+            (None, PhaseLaw::Mie { kind }) => kind.table().extinction(wavelength_nm),
+            (exponent, _) => {
+                (wavelength_nm / 550.0).powf(-exponent.unwrap_or(USUAL_ANGSTROM_EXPONENT))
+            }
+        };
+        self.optical_depth_550 * relative
     }
 
     /// Fraction of the light removed that is scattered.
-    pub fn albedo(&self, _wavelength_nm: f64) -> f64 {
-        self.single_scattering_albedo.unwrap_or(USUAL_ALBEDO)
+    pub fn albedo(&self, wavelength_nm: f64) -> f64 {
+        match (self.single_scattering_albedo, &self.phase) {
+            (None, PhaseLaw::Mie { kind }) => kind.table().albedo(wavelength_nm),
+            (albedo, _) => albedo.unwrap_or(USUAL_ALBEDO),
+        }
     }
 
     /// Phase function, per steradian, 1 over the sphere; by the cosine of the angle by which light

@@ -20,9 +20,10 @@ mod tabulated;
 use std::f64::consts::PI;
 
 pub use laws::{
-    cornette_shanks, cornette_shanks_moment, henyey_greenstein, henyey_greenstein_moment,
-    king_factor, rayleigh, rayleigh_depolarised, rayleigh_depolarised_moment, rayleigh_moment,
-    schlick, schlick_moment,
+    cornette_shanks, cornette_shanks_moment, double_henyey_greenstein,
+    double_henyey_greenstein_moment, henyey_greenstein, henyey_greenstein_moment, king_factor,
+    rayleigh, rayleigh_depolarised, rayleigh_depolarised_moment, rayleigh_moment, schlick,
+    schlick_moment,
 };
 pub use tabulated::{Tabulated, TabulatedError};
 
@@ -56,8 +57,7 @@ impl PhaseFunction {
             }
             PhaseFunction::HenyeyGreenstein { g } => henyey_greenstein(g, cosine),
             PhaseFunction::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share } => {
-                forward_share * henyey_greenstein(forward_g, cosine)
-                    + (1.0 - forward_share) * henyey_greenstein(backward_g, cosine)
+                double_henyey_greenstein(forward_g, backward_g, forward_share, cosine)
             }
             PhaseFunction::Schlick { k } => schlick(k, cosine),
             PhaseFunction::CornetteShanks { g } => cornette_shanks(g, cosine),
@@ -74,8 +74,7 @@ impl PhaseFunction {
             }
             PhaseFunction::HenyeyGreenstein { g } => henyey_greenstein_moment(g, l),
             PhaseFunction::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share } => {
-                forward_share * henyey_greenstein_moment(forward_g, l)
-                    + (1.0 - forward_share) * henyey_greenstein_moment(backward_g, l)
+                double_henyey_greenstein_moment(forward_g, backward_g, forward_share, l)
             }
             PhaseFunction::Schlick { k } => schlick_moment(k, l),
             PhaseFunction::CornetteShanks { g } => cornette_shanks_moment(g, l),

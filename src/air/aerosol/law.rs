@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Checked;
-use crate::air::phase::{PhaseFunction, Tabulated};
+use super::{Checked, MieKind};
+use crate::air::phase::{self, Tabulated};
 
 /// The harmonics of the scattering solver do not follow sharper peaks.
 const MOST_ASYMMETRIC: f64 = 0.9;
@@ -21,8 +21,10 @@ pub enum PhaseLaw {
     /// Schlick's stand-in for Henyey and Greenstein; -0.95 to 0.95.
     Schlick { k: f64 },
     /// `degrees` of turn, ascending from 0 to 180, and `values` above 0 in any unit, the same at
-    /// all wavelengths.
+    /// all wavelengths; the mean cosine -0.9 to 0.9.
     Table(Tabulated),
+    /// A shipped kind, which has its own extinction and albedo by wavelength.
+    Mie { kind: MieKind },
 }
 
 impl PhaseLaw {
@@ -39,36 +41,43 @@ impl PhaseLaw {
                 field("forward_share", forward_share, 0.0, 1.0),
             ],
             PhaseLaw::Schlick { k } => vec![field("k", k, -0.95, 0.95)],
-            PhaseLaw::Table(_) => Vec::new(),
-        }
-    }
-
-    /// The phase function at a wavelength.
-    pub fn at(&self, _wavelength_nm: f64) -> PhaseFunction {
-        match *self {
-            PhaseLaw::HenyeyGreenstein { g } => PhaseFunction::HenyeyGreenstein { g },
-            PhaseLaw::CornetteShanks { g } => PhaseFunction::CornetteShanks { g },
-            PhaseLaw::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share } => {
-                PhaseFunction::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share }
+            PhaseLaw::Table(ref table) => {
+                vec![(format!("the mean cosine of {path}"), table.moment(1), -most, most)]
             }
-            PhaseLaw::Schlick { k } => PhaseFunction::Schlick { k },
-            PhaseLaw::Table(ref table) => PhaseFunction::Tabulated(table.clone()),
+            PhaseLaw::Mie { .. } => Vec::new(),
         }
     }
 
     /// Per steradian, 1 over the sphere, at a cosine of the angle of turn.
     pub fn value(&self, wavelength_nm: f64, cosine: f64) -> f64 {
-        match self {
-            PhaseLaw::Table(table) => table.value(cosine),
-            _ => self.at(wavelength_nm).value(cosine),
+        match *self {
+            PhaseLaw::HenyeyGreenstein { g } => phase::henyey_greenstein(g, cosine),
+            PhaseLaw::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share } => {
+                phase::double_henyey_greenstein(forward_g, backward_g, forward_share, cosine)
+            }
+            PhaseLaw::CornetteShanks { g } => phase::cornette_shanks(g, cosine),
+            PhaseLaw::Schlick { k } => phase::schlick(k, cosine),
+            PhaseLaw::Table(ref table) => table.value(cosine),
+            PhaseLaw::Mie { kind } => kind.table().phase(wavelength_nm, cosine),
         }
     }
 
-    /// Legendre moment of degree `l`.
+    /// Legendre moment of degree `l`: 1 for 0, the mean cosine for 1.
     pub fn moment(&self, wavelength_nm: f64, l: usize) -> f64 {
-        match self {
-            PhaseLaw::Table(table) => table.moment(l),
-            _ => self.at(wavelength_nm).moment(l),
+        match *self {
+            PhaseLaw::HenyeyGreenstein { g } => phase::henyey_greenstein_moment(g, l),
+            PhaseLaw::DoubleHenyeyGreenstein { forward_g, backward_g, forward_share } => {
+                phase::double_henyey_greenstein_moment(forward_g, backward_g, forward_share, l)
+            }
+            PhaseLaw::CornetteShanks { g } => phase::cornette_shanks_moment(g, l),
+            PhaseLaw::Schlick { k } => phase::schlick_moment(k, l),
+            PhaseLaw::Table(ref table) => table.moment(l),
+            PhaseLaw::Mie { kind } => kind.table().moment(wavelength_nm, l),
         }
+    }
+
+    /// Whether its values are looked up, not computed: some 100 ns instead of some 5.
+    pub(crate) fn is_tabulated(&self) -> bool {
+        matches!(self, PhaseLaw::Table(_) | PhaseLaw::Mie { .. })
     }
 }

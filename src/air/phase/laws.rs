@@ -52,6 +52,28 @@ pub fn henyey_greenstein_moment(g: f64, l: usize) -> f64 {
     g.powi(l as i32)
 }
 
+/// Two of [`henyey_greenstein`], one of which may look back (Kattawar 1975), per steradian.
+pub fn double_henyey_greenstein(
+    forward_g: f64,
+    backward_g: f64,
+    forward_share: f64,
+    nu: f64,
+) -> f64 {
+    forward_share * henyey_greenstein(forward_g, nu)
+        + (1.0 - forward_share) * henyey_greenstein(backward_g, nu)
+}
+
+/// Legendre moment of [`double_henyey_greenstein`].
+pub fn double_henyey_greenstein_moment(
+    forward_g: f64,
+    backward_g: f64,
+    forward_share: f64,
+    l: usize,
+) -> f64 {
+    forward_share * henyey_greenstein_moment(forward_g, l)
+        + (1.0 - forward_share) * henyey_greenstein_moment(backward_g, l)
+}
+
 /// Schlick's stand-in for Henyey and Greenstein, per steradian: `(1 - k^2)/(4 pi (1 - k nu)^2)`.
 ///
 /// Positive `k`, |k| < 1, throws light forward. Blasi, Le Saëc & Schlick 1993 write `1 + k nu` with
