@@ -95,8 +95,7 @@ impl Studio {
             let middle = 0.5 * (high + low);
             let setting = self.all_sky(clock(middle)).setting()?;
             let tolerance = Angle::from_arcsec(10.0);
-            let sky =
-                SkyState::at(&self.ephemeris, &setting.instant, &setting.place, tolerance)?;
+            let sky = SkyState::at(&self.ephemeris, &setting.instant, &setting.place, tolerance)?;
             match body(&sky).dir.altitude().deg() > altitude_deg {
                 true => high = middle,
                 false => low = middle,

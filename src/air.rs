@@ -13,6 +13,8 @@ use thiserror::Error;
 pub mod aerosol;
 pub mod cross_section;
 pub mod extinction;
+mod named;
+pub mod phase;
 mod ray;
 pub mod refraction;
 pub mod scattering;
@@ -113,7 +115,11 @@ impl Default for LightPaths {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum AirError {
     #[error("air: {what} is {value}, outside {low} to {high}; choose a value inside")]
-    Range { what: &'static str, value: f64, low: f64, high: f64 },
+    Range { what: String, value: f64, low: f64, high: f64 },
+    #[error("air: line {line}: {message}")]
+    Syntax { line: usize, message: String },
+    #[error("air: none is called '{name}'; {way_out}")]
+    Unknown { name: String, way_out: String },
     #[error(
         "air: {pressure_mbar} mbar at {height_m} m make air on the ground that bends light around the \
          Earth; give the pressure at the height of the observer"
@@ -151,7 +157,7 @@ impl Atmosphere {
         let weather = &self.observer;
         let pressure = weather.pressure_mbar.unwrap_or(standard::SEA_LEVEL_PRESSURE_MBAR);
         let [foot, peak, head] = self.ozone.tent_km;
-        let mut checks = vec![
+        let numbers = [
             ("observer.pressure_mbar", pressure, f64::MIN_POSITIVE, 1100.0),
             ("observer.temperature_c", weather.temperature_c, -90.0, 60.0),
             ("observer.relative_humidity", weather.relative_humidity, 0.0, 1.0),
@@ -162,9 +168,14 @@ impl Atmosphere {
             ("ground.albedo", self.ground.albedo, 0.0, 1.0),
             ("ground.height_m", self.ground.height_m.unwrap_or(0.0), -430.0, 9000.0),
         ];
-        checks.extend(self.aerosol.ranges());
-        checks.extend(self.stratospheric_aerosol.iter().flat_map(Aerosol::ranges));
-        for (what, value, low, high) in checks {
+        let aerosols = [
+            ("aerosol", Some(&self.aerosol)),
+            ("stratospheric_aerosol", self.stratospheric_aerosol.as_ref()),
+        ];
+        let numbers = numbers.map(|(what, value, low, high)| (what.to_owned(), value, low, high));
+        let of_aerosols =
+            aerosols.into_iter().filter_map(|(name, a)| Some(a?.ranges(name))).flatten();
+        for (what, value, low, high) in numbers.into_iter().chain(of_aerosols) {
             // Written so that NaN, which is in no range, is refused too.
             if !(low..=high).contains(&value) {
                 return Err(AirError::Range { what, value, low, high });
@@ -191,6 +202,7 @@ impl Atmosphere {
 
 #[cfg(test)]
 mod tests {
+    use super::aerosol::PhaseLaw;
     use super::*;
 
     #[test]
@@ -214,7 +226,7 @@ mod tests {
         let mut airs = [(); 3].map(|()| Atmosphere::default());
         airs[0].ozone.column_du = f64::NAN;
         airs[1].observer.pressure_mbar = Some(0.0);
-        airs[2].aerosol.asymmetry = 1.0;
+        airs[2].aerosol.phase = PhaseLaw::HenyeyGreenstein { g: 1.0 };
         for air in airs {
             assert!(air.validate().is_err(), "{air:?}");
         }

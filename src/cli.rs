@@ -5,6 +5,7 @@
 //! go to standard output, progress to standard error.
 
 mod almanac;
+mod atmosphere;
 mod draw;
 mod ephemeris;
 mod error;
@@ -54,6 +55,8 @@ enum Command {
     Almanac(almanac::AlmanacArgs),
     /// Write tables of where bodies and stars are seen, of any length
     Ephemeris(ephemeris::EphemerisArgs),
+    /// List airs that are known by name, or print the file of one, to copy and change
+    Atmosphere(atmosphere::AtmosphereArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -135,6 +138,9 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         writeln!(out, "{}", crate::render::Renderer::new()?.adapter())?;
         return Ok(());
     }
+    if let Command::Atmosphere(args) = &cli.command {
+        return atmosphere::run(args, out);
+    }
     let catalogs = Catalogs::locate(cli.catalogs.as_deref())?;
     match &cli.command {
         Command::Render(args) => render::run(args, &catalogs, out),
@@ -142,6 +148,8 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Objects(args) => objects::run(args, &catalogs, out),
         Command::Almanac(args) => almanac::run(args, &catalogs, out),
         Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
+        // Done above: no catalogue is needed.
+        Command::Atmosphere(_) => Ok(()),
         #[cfg(feature = "gpu")]
         Command::Adapter => Ok(()),
     }

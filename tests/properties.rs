@@ -2,7 +2,7 @@
 //! light without nonsense.
 
 use nocturne::air::Atmosphere;
-use nocturne::air::aerosol::Aerosol;
+use nocturne::air::aerosol::{Aerosol, AerosolProfile, PhaseLaw};
 use nocturne::air::refraction::Refraction;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
 use nocturne::catalog::{MoonMap, Star};
@@ -305,10 +305,10 @@ fn airs() -> impl Strategy<Value = Atmosphere> {
         let mut air = Atmosphere::default();
         air.aerosol = Aerosol {
             optical_depth_550: depth,
-            angstrom_exponent: exponent,
-            scale_height_km: scale_km,
-            single_scattering_albedo: albedo,
-            asymmetry,
+            angstrom_exponent: Some(exponent),
+            profile: AerosolProfile::Exponential { scale_height_km: scale_km },
+            single_scattering_albedo: Some(albedo),
+            phase: PhaseLaw::HenyeyGreenstein { g: asymmetry },
         };
         (air.ozone.column_du, air.ground.albedo) = (ozone_du, ground_albedo);
         (air.observer.pressure_mbar, air.observer.temperature_c) = (pressure_mbar, temperature_c);

@@ -22,7 +22,7 @@ fn airs() -> [(&'static str, Atmosphere); 5] {
         let mut air = Atmosphere::default();
         air.ozone.column_du = ozone_du;
         air.aerosol.optical_depth_550 = depth;
-        air.aerosol.angstrom_exponent = exponent;
+        air.aerosol.angstrom_exponent = Some(exponent);
         air.ground.albedo = albedo;
         air
     };

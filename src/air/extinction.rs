@@ -164,6 +164,7 @@ impl RefractiveAir for Refractivity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::air::aerosol::AerosolProfile;
 
     fn depths_at(nm: f64) -> [f64; 3] {
         let columns = vertical_columns(&Atmosphere::default(), 0.0);
@@ -226,7 +227,7 @@ mod tests {
     fn air_masses_are_close_to_the_published_formulas() {
         // Schaefer 1993: gas and aerosol with scale heights of 8.2 and 1.5 km, ozone at 20 km.
         let mut air = Atmosphere::default();
-        air.aerosol.scale_height_km = 1.5;
+        air.aerosol.profile = AerosolProfile::Exponential { scale_height_km: 1.5 };
         for (altitude_deg, within) in [(90.0, 1e-3), (45.0, 0.01), (20.0, 0.01), (10.0, 0.02)] {
             let altitude = Angle::from_deg(altitude_deg);
             let masses = air_masses(&air, 0.0, altitude);

@@ -22,7 +22,7 @@ mod field;
 mod harmonics;
 mod lanes;
 mod path;
-pub mod phase;
+
 mod profile;
 mod rays;
 mod reconstruction;

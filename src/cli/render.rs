@@ -16,7 +16,7 @@ use super::error::CliError;
 use super::look::{self, Look};
 use super::outputs::Outputs;
 use super::progress::Progress;
-use super::{draw, stage, stats, summary};
+use super::{atmosphere, draw, stage, stats, summary};
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -43,6 +43,9 @@ pub struct RenderArgs {
     /// Width and height in pixels [default: 1280x720]
     #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
+    /// The air: a name that `nocturne atmosphere` lists, or a file [default: clear]
+    #[arg(long, value_name = "NAME|FILE")]
+    atmosphere: Option<String>,
     /// Leave out stars and planets fainter than this
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     magnitude_limit: Option<f64>,
@@ -195,6 +198,9 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         scene.utc = stage::instant(at, &place)?.to_string();
     }
     change_camera(args, &mut scene.camera);
+    if let Some(words) = &args.atmosphere {
+        scene.air = atmosphere::find(words)?;
+    }
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
     scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);

@@ -91,6 +91,13 @@ const CAMERAS: &[Case] = &[
     ("magnitude_nan", &["--magnitude-limit", "NaN"], &["magnitude_limit is NaN", "-30 to 100"]),
 ];
 
+/// Airs, in Flagstaff.
+const AIRS: &[Case] = &[
+    ("misspelt", &["--atmosphere", "maritme"], &["'maritme'", "did you mean maritime", ".toml"]),
+    ("unknown", &["--atmosphere", "xyzzy"], &["'xyzzy'", "clear, continental", ".toml"]),
+    ("nothing", &["--atmosphere", " "], &["--atmosphere names nothing", "`nocturne atmosphere`"]),
+];
+
 /// Whole command lines that are no render.
 const LINES: &[Case] = &[
     ("unknown_command", &["paint"], &["'paint'", "--help"]),
@@ -104,6 +111,7 @@ const LINES: &[Case] = &[
         &["objects", "--magnitude-limit", "NaN", "--place", "Flagstaff"],
         &["--magnitude-limit", "give a magnitude"],
     ),
+    ("atmosphere_unknown", &["atmosphere", "dessert"], &["'dessert'", "did you mean desert"]),
     ("place_unknown", &["place", "Flagstaf", "--limit", "-1"], &["'-1'", "--limit <N>"]),
 ];
 
@@ -120,6 +128,10 @@ pub fn trials() -> Vec<Trial> {
         let arguments = [&["render"], *value, HERE, FILES].concat();
         case(format!("nonsense::camera::{name}"), arguments, said)
     };
+    let air = |(name, value, said): &Case| {
+        let arguments = [&["render"], *value, HERE, FILES].concat();
+        case(format!("nonsense::air::{name}"), arguments, said)
+    };
     let line =
         |(name, line, said): &Case| case(format!("nonsense::line::{name}"), line.to_vec(), said);
     let skipped = "render --at 2026-03-08T02:30 --place Denver --describe old.json";
@@ -131,6 +143,7 @@ pub fn trials() -> Vec<Trial> {
     let tables = DATES.iter().map(at).chain(PLACES.iter().map(place));
     tables
         .chain(CAMERAS.iter().map(camera))
+        .chain(AIRS.iter().map(air))
         .chain(LINES.iter().map(line))
         .chain([skipped])
         .collect()

@@ -163,7 +163,7 @@ fn check(air: &ObserverAir) -> Result<(), AirError> {
     for (what, value, low, high) in checks {
         // Written so that NaN, which is in no range, is refused too.
         if !(low..=high).contains(&value) {
-            return Err(AirError::Range { what, value, low, high });
+            return Err(AirError::Range { what: what.to_owned(), value, low, high });
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! Real spherical harmonics, even in azimuth, without a single angle; and Gauss-Legendre nodes.
+//! Real spherical harmonics, even in azimuth, without a single angle.
 //!
 //! With the local vertical as axis, azimuth counted from the source, `z = cos(theta)` and
 //! `x = sin(theta) cos(phi)`: `Y_lm = N_lm Q_lm(z) C_m(x, z)`, where `C_m = sin^m(theta) cos(m phi)`
@@ -6,6 +6,8 @@
 //! without its `sin^m(theta)`. Nothing is singular at the pole.
 
 use std::f64::consts::PI;
+
+pub(crate) use crate::air::phase::quadrature::gauss_legendre;
 
 /// The highest degree supported.
 pub(crate) const MAX_DEGREE: usize = 8;
@@ -54,45 +56,9 @@ pub(crate) fn azimuthal_part(degree: usize, x: f32, sin2: f32) -> [f32; MAX_DEGR
     c
 }
 
-/// Gauss-Legendre nodes and weights on `[0, 1]`, by Newton's method on the Legendre polynomial.
-pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    let mut nodes: Vec<(f64, f64)> = (0..n)
-        .map(|i| {
-            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..50 {
-                let (mut p, mut q) = (1.0, x); // P_0, P_1
-                for k in 1..n {
-                    (p, q) = (q, ((2 * k + 1) as f64 * x * q - k as f64 * p) / (k + 1) as f64);
-                }
-                slope = n as f64 * (x * q - p) / (x * x - 1.0);
-                let step = q / slope;
-                x -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect();
-    nodes.reverse();
-    nodes
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quadrature_is_exact_for_polynomials() {
-        for n in [1, 2, 5, 10, 24] {
-            for power in 0..2 * n {
-                let got: f64 =
-                    gauss_legendre(n).iter().map(|&(t, w)| w * t.powi(power as i32)).sum();
-                assert!((got - 1.0 / (power + 1) as f64).abs() < 1e-13, "{n} nodes, t^{power}");
-            }
-        }
-    }
 
     #[test]
     fn harmonics_are_orthonormal() {

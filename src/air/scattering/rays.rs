@@ -368,7 +368,7 @@ mod tests {
     fn what_is_not_transmitted_is_scattered_where_nothing_absorbs() {
         let mut air = Atmosphere::default();
         air.ozone.column_du = 0.0;
-        air.aerosol.single_scattering_albedo = 1.0;
+        air.aerosol.single_scattering_albedo = Some(1.0);
         for refractivity in [0.0, 2.8e-4] {
             with_medium(&air, refractivity, |medium| {
                 for (height, mu) in

@@ -1,7 +1,9 @@
 //! Makes the files in `catalogs/` out of the raw tables, or checks that they are what packing
 //! makes.
 
+mod aerosols;
 mod kernels;
+mod mie;
 
 use std::fs;
 use std::io::Write;
@@ -63,6 +65,7 @@ fn run(args: &Args) -> Result<bool, String> {
         ),
     }
     packed.extend(kernels::tables(&args.kernels)?);
+    packed.extend(aerosols::tables());
     if args.check {
         return Ok(check(&args.out, &packed));
     }
