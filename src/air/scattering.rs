@@ -22,7 +22,7 @@ mod field;
 mod harmonics;
 mod lanes;
 pub mod phase;
-mod profile;
+pub(in crate::air) mod profile;
 mod rays;
 mod reconstruction;
 mod solve;
