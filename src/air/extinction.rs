@@ -130,8 +130,7 @@ impl SightLines {
         if self.height_km >= AIR_TOP_KM {
             return Columns::default();
         }
-        let ray =
-            Ray::new(&self.bending, self.height_km, apparent_altitude.max(self.horizon));
+        let ray = Ray::new(&self.bending, self.height_km, apparent_altitude.max(self.horizon));
         let mut sums = [0.0; 4];
         ray.for_each_step(self.densities.heights_km(), &GAUSS_3, |step: &Step| {
             let densities = self.densities.density(step.height_km);

@@ -179,11 +179,8 @@ const LEVELS_KM: [f64; 27] = [
 ];
 
 /// Nodes and weights of Gauss and Legendre's rule of order 3 on [-1, 1].
-pub(super) const GAUSS_3: [(f64, f64); 3] = [
-    (-0.774_596_669_241_483_4, 5.0 / 9.0),
-    (0.0, 8.0 / 9.0),
-    (0.774_596_669_241_483_4, 5.0 / 9.0),
-];
+pub(super) const GAUSS_3: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// The same of order 6.
 const GAUSS_6: [(f64, f64); 6] = [

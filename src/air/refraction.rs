@@ -114,8 +114,7 @@ impl Refraction {
             Refraction::Bennett(formula) => formula.slope_at_apparent_altitude(apparent),
             Refraction::Traced(rays) => rays.slope_at_apparent_altitude(apparent),
         };
-        let (across, true_across) =
-            (apparent.cos(), self.true_from_apparent(apparent).cos());
+        let (across, true_across) = (apparent.cos(), self.true_from_apparent(apparent).cos());
         // In the zenith both vanish, and their ratio is that of the altitudes.
         let level = if across > 1e-6 { across / true_across } else { 1.0 / (1.0 - slope) };
         level / (1.0 - slope)

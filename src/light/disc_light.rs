@@ -32,7 +32,8 @@ const STRIPS: usize = 32;
 const ACROSS: usize = 24;
 
 /// Integral of `mu^k` across the middle of a disc of radius 1, `sqrt(pi) G(k/2 + 1) / G(k/2 + 3/2)`.
-const ACROSS_MIDDLE: [f64; 6] = [2.0, PI / 2.0, 4.0 / 3.0, 3.0 * PI / 8.0, 16.0 / 15.0, 5.0 * PI / 16.0];
+const ACROSS_MIDDLE: [f64; 6] =
+    [2.0, PI / 2.0, 4.0 / 3.0, 3.0 * PI / 8.0, 16.0 / 15.0, 5.0 * PI / 16.0];
 
 /// Illuminance by the visible part of a body through the air, lux, on a plane that faces it.
 ///
@@ -126,7 +127,11 @@ impl Strips {
                 strip / (PI * law.disc_mean())
             }
             Strips::Lit { to_sun, total } => {
-                if *total > 0.0 { lit_strip(*to_sun, off_middle) / total } else { 0.0 }
+                if *total > 0.0 {
+                    lit_strip(*to_sun, off_middle) / total
+                } else {
+                    0.0
+                }
             }
         }
     }
