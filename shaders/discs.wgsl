@@ -1,30 +1,49 @@
 // Spheres that show a disc: the Sun, the Moon, and planets when the field is narrow.
+//
+// A field of 0.02 degrees has pixels of 2e-7 radians, less than a direction in 32 bits can tell. All
+// is therefore reckoned as a difference: from the point of the disc where the lowest node is seen,
+// then from the centre of the disc. Small differences keep their digits.
 
-const NODES: u32 = 9;
+const NODES: u32 = 33;
 
 struct Disc {
     // Corners of the pixels that the disc can touch.
     first_px: vec2f,
     last_px: vec2f,
-    // Geometric direction of the centre, and the sine of the angular radius, in w.
+    // Where the lowest node is seen, at the azimuth of the centre: in camera axes, right and up, and
+    // one less the cosine of its angle from the axis, in z.
+    lowest_in_view: vec4f,
+    // The same direction in local axes (east, north, up), and the length of its level part, in w.
+    lowest: vec4f,
+    // Sine and cosine of the altitude of the centre, without air, and the sine of the angular radius.
     centre: vec4f,
-    // From the body to the Sun; w is the law: 0 Sun, 1 Moon, 2 Lambert.
+    // From the body to the Sun, in axes of the disc: level, up, away from the observer; w is the law:
+    // 0 Sun, 1 Moon, 2 Lambert.
     to_sun: vec4f,
-    // Rows: the body's own axes in local ones.
-    body_from_horizon: mat3x3f,
+    // Rows: the body's own axes in those of the disc.
+    body_from_disc: mat3x3f,
+    // What stands in front, in axes of the disc: level, up, and one less the part away from the
+    // observer, in z; in w the chord of its angular radius.
+    occluder: vec4f,
+    // Samples in a pixel inside the disc and turn of their lattice; the same near an edge.
+    samples: vec4u,
+    // Nodes in a radian of apparent altitude.
+    per_step: f32,
+    // How near to an edge the samples are those of the edge, in radii.
+    edge: f32,
+    bands: u32,
+    map_width: u32,
+}
+
+// A disc in one band of colour.
+struct Band {
     // Limb darkening: I(mu) / I(1) = sum of a_k mu^k.
     limb: array<vec4f, 2>,
-    // Apparent altitude of the lowest node, step between nodes, samples per pixel and axis.
-    lowest_rad: f32,
-    step_rad: f32,
-    samples: u32,
-    map_width: u32,
-    // What stands in front: geometric direction, and the sine of its angular radius in w.
-    occluder: vec4f,
-    // By apparent altitude across the disc: the luminance of a surface whose shape is one,
-    // seen through the air, and the geometric altitude.
+    // By apparent altitude across the disc: the luminance of a surface whose shape is one, seen
+    // through the air.
     luminance: array<vec4f, NODES>,
-    geometric_altitude: array<vec4f, NODES>,
+    // True altitude above the centre, and what it gains from one node to the next.
+    above_centre: array<vec4f, NODES>,
 }
 
 const SUN: u32 = 0;
@@ -34,6 +53,7 @@ const MOON: u32 = 1;
 @group(0) @binding(1) var<uniform> disc: Disc;
 // Relative albedo, longitude -180 to 180 along x, latitude 90 to -90 down y.
 @group(0) @binding(2) var<storage, read> albedo: array<f32>;
+@group(0) @binding(3) var<storage, read> bands: array<Band>;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -59,13 +79,14 @@ fn albedo_at(normal: vec3f) -> f32 {
     return mix(top, bottom, y - f32(y0));
 }
 
-// Given the outward normal and the cosine of emission, the shape of the light on the disc.
-fn shape(normal: vec3f, cos_emission: f32) -> f32 {
+// Given a band, the outward normal in axes of the disc and the cosine of emission, the shape of the
+// light on the disc.
+fn shape(band: u32, normal: vec3f, cos_emission: f32) -> f32 {
     let law = u32(disc.to_sun.w);
     if law == SUN {
         let m = cos_emission;
-        let low = disc.limb[0];
-        let high = disc.limb[1];
+        let low = bands[band].limb[0];
+        let high = bands[band].limb[1];
         return low.x + m * (low.y + m * (low.z + m * (low.w + m * (high.x + m * high.y))));
     }
     let cos_incidence = dot(normal, disc.to_sun.xyz);
@@ -75,48 +96,167 @@ fn shape(normal: vec3f, cos_emission: f32) -> f32 {
     if law == MOON {
         // Lommel and Seeliger: no limb darkening at full phase.
         let lit = cos_incidence / (cos_incidence + cos_emission);
-        return lit * albedo_at(disc.body_from_horizon * normal);
+        return lit * albedo_at(disc.body_from_disc * normal);
     }
     return cos_incidence;
 }
 
+// The sine of an angle over the angle, with all digits for small ones.
+fn sinc(angle: Radians) -> f32 {
+    let square = angle * angle;
+    let series = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0));
+    return select(sin(angle) / angle, series, square < 0.1);
+}
+
+// Given a point in pixels, the direction seen there in camera axes: right, up, and one less the
+// cosine of the angle from the axis, in z; w is negative where there is no sky.
+fn offset_from_pixel(pixel: vec2f) -> vec4f {
+    let plane = plane_from_pixel(camera, pixel);
+    let square = dot(plane, plane);
+    switch camera.projection {
+        case PERSPECTIVE: {
+            let cosine = inverseSqrt(1.0 + square);
+            return vec4f(plane * cosine, square * cosine * cosine / (1.0 + cosine), 1.0);
+        }
+        case STEREOGRAPHIC: {
+            let scale = 1.0 / (1.0 + 0.25 * square);
+            return vec4f(plane * scale, 0.5 * square * scale, 1.0);
+        }
+        case EQUAL_AREA: {
+            let rest = 1.0 - 0.25 * square;
+            return vec4f(plane * sqrt(max(rest, 0.0)), 0.5 * square, rest);
+        }
+        case EQUIRECTANGULAR: {
+            let half = 0.5 * vec2f(sinc(0.5 * plane.x), sinc(0.5 * plane.y)) * plane;
+            let level = 1.0 - 2.0 * half.y * half.y;
+            let versine = 2.0 * half.y * half.y + 2.0 * level * half.x * half.x;
+            let dir = vec2f(level * sinc(plane.x) * plane.x, sinc(plane.y) * plane.y);
+            return vec4f(dir, versine, select(-1.0, 1.0, abs(plane.x) <= PI && abs(plane.y) <= 0.5 * PI));
+        }
+        default: {
+            let radius = sqrt(square);
+            let half = 0.5 * sinc(0.5 * radius) * radius;
+            return vec4f(plane * sinc(radius), 2.0 * half * half, PI - radius);
+        }
+    }
+}
+
+// A point of the picture as the disc has it.
+struct Sight {
+    // Place among the nodes by apparent altitude, 0 at the lowest; negative where nothing is seen.
+    place: f32,
+    // Sine of the azimuth from the centre, and one less its cosine.
+    sin_azimuth: f32,
+    versine_azimuth: f32,
+}
+
+const NOTHING = Sight(-1e9, 0.0, 0.0);
+
+// Given a point in pixels, where it lies across the disc.
+fn sight_at(pixel: vec2f) -> Sight {
+    let view = offset_from_pixel(pixel);
+    if view.w < 0.0 {
+        return NOTHING;
+    }
+    let off = camera.apparent_from_view * (view.xyz - disc.lowest_in_view.xyz);
+    let flat = disc.lowest.xy + off.xy;
+    let level = max(length(flat), 1e-12);
+    // sin(a - b) = sin a cos b - cos a sin b, in differences from b.
+    let narrowing = -off.z * (2.0 * disc.lowest.z + off.z) / (level + disc.lowest.w);
+    let sine = off.z * disc.lowest.w - narrowing * disc.lowest.z;
+    let above = sine * (1.0 + sine * sine / 6.0);
+    let lengths = level * max(disc.lowest.w, 1e-12);
+    let sin_azimuth = (off.x * disc.lowest.y - off.y * disc.lowest.x) / lengths;
+    let cos_azimuth = sqrt(max(1.0 - sin_azimuth * sin_azimuth, 0.0));
+    let ahead = dot(flat, disc.lowest.xy) >= 0.0;
+    let near = sin_azimuth * sin_azimuth / (1.0 + cos_azimuth);
+    return Sight(above * disc.per_step, sin_azimuth, select(2.0 - near, near, ahead));
+}
+
+// Given where a sight lies, the point of the disc in a band, level and up, in radii; in z one less the
+// cosine of its angle from the centre.
+fn point_at(band: u32, sight: Sight) -> vec3f {
+    let node = min(u32(sight.place), NODES - 2u);
+    let t = sight.place - f32(node);
+    // Hermite's cubic through two nodes and their slopes.
+    let low = bands[band].above_centre[node].xy;
+    let high = bands[band].above_centre[node + 1u].xy;
+    let gain = high.x - low.x;
+    let bend = (low.y - gain) * (1.0 - t) - (high.y - gain) * t;
+    let above = low.x + t * (gain + (1.0 - t) * bend);
+    let half = 0.5 * above * sinc(0.5 * above);
+    let versine = 2.0 * half * half;
+    let sine = above * sinc(above);
+    let cos_altitude = disc.centre.y * (1.0 - versine) - disc.centre.x * sine;
+    let across = cos_altitude * sight.sin_azimuth;
+    let up = sine + cos_altitude * disc.centre.x * sight.versine_azimuth;
+    let away = versine + cos_altitude * disc.centre.y * sight.versine_azimuth;
+    return vec3f(vec2f(across, up) / disc.centre.z, away);
+}
+
+// How far a point of the disc is from what stands in front, less its radius; both as chords.
+fn beside_occluder(at: vec3f) -> f32 {
+    let off = at.xy * disc.centre.z - disc.occluder.xy;
+    return length(vec3f(off, at.z - disc.occluder.z)) - disc.occluder.w;
+}
+
+// Whether a sight is one at which the disc may be.
+fn is_on_disc(sight: Sight) -> bool {
+    return sight.place >= 0.0 && sight.place <= f32(NODES - 1u);
+}
+
 // Given a point in pixels, the light of the disc there; none below the horizon.
 fn light_at(pixel: vec2f) -> LuminanceXyzv {
-    let sight = apparent_from_pixel(camera, pixel);
-    if !sight.exists || sight.dir.z < 0.0 {
-        return vec4f(0.0);
+    let sight = sight_at(pixel);
+    var light = vec4f(0.0);
+    if !is_on_disc(sight) {
+        return light;
     }
-    let flat = length(sight.dir.xy);
-    let apparent = atan2(sight.dir.z, flat);
-    let place = clamp((apparent - disc.lowest_rad) / disc.step_rad, 0.0, f32(NODES - 1u));
-    let node = min(u32(place), NODES - 2u);
-    let along = place - f32(node);
-    let altitude = mix(disc.geometric_altitude[node].x, disc.geometric_altitude[node + 1u].x, along);
-    let level = select(vec2f(0.0), sight.dir.xy / flat, flat > 0.0);
-    let dir = vec3f(level * cos(altitude), sin(altitude));
-    let off_centre = (dir - disc.centre.xyz * dot(dir, disc.centre.xyz)) / disc.centre.w;
-    let squared = dot(off_centre, off_centre);
-    if squared >= 1.0 || dot(dir, disc.centre.xyz) < 0.0 {
-        return vec4f(0.0);
+    let node = min(u32(sight.place), NODES - 2u);
+    let along = sight.place - f32(node);
+    for (var band = 0u; band < disc.bands; band++) {
+        let at = point_at(band, sight);
+        let squared = dot(at.xy, at.xy);
+        if squared < 1.0 && at.z < 0.5 && beside_occluder(at) >= 0.0 {
+            let cos_emission = sqrt(1.0 - squared);
+            let normal = vec3f(at.xy, -cos_emission);
+            let luminance =
+                mix(bands[band].luminance[node], bands[band].luminance[node + 1u], along);
+            light += luminance * shape(band, normal, cos_emission);
+        }
     }
-    let beside = length(cross(dir, disc.occluder.xyz));
-    if beside < disc.occluder.w && dot(dir, disc.occluder.xyz) > 0.0 {
-        return vec4f(0.0);
+    return light;
+}
+
+// Given the middle of a pixel, how many samples it asks for and the turn of their lattice: many where
+// an edge may run through it, of the disc, of what stands in front, or of the ground; none outside.
+fn lattice_at(middle: vec2f) -> vec2u {
+    let sight = sight_at(middle);
+    let margin = disc.edge * disc.centre.z;
+    let low = sight.place / disc.per_step;
+    let high = (sight.place - f32(NODES - 1u)) / disc.per_step;
+    if low < -margin || high > margin {
+        return vec2u(0u);
     }
-    let cos_emission = sqrt(1.0 - squared);
-    let normal = off_centre - disc.centre.xyz * cos_emission;
-    return mix(disc.luminance[node], disc.luminance[node + 1u], along) * shape(normal, cos_emission);
+    let nearest = Sight(clamp(sight.place, 0.0, f32(NODES - 1u)), sight.sin_azimuth, sight.versine_azimuth);
+    let at = point_at(disc.bands / 2u, nearest);
+    let outside = length(at.xy) - 1.0;
+    if outside > disc.edge || at.z > 0.5 {
+        return vec2u(0u);
+    }
+    let is_inside = low > margin && high < -margin && outside < -disc.edge;
+    let is_free = abs(beside_occluder(at)) > margin;
+    return select(disc.samples.zw, disc.samples.xy, is_inside && is_free);
 }
 
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) LuminanceXyzv {
     let first = floor(position.xy);
+    let lattice = lattice_at(first + 0.5);
     var sum = vec4f(0.0);
-    for (var y = 0u; y < disc.samples; y++) {
-        for (var x = 0u; x < disc.samples; x++) {
-            let within = (vec2f(f32(x), f32(y)) + 0.5) / f32(disc.samples);
-            sum += light_at(first + within);
-        }
+    for (var k = 0u; k < lattice.x; k++) {
+        let row = (k * lattice.y) % lattice.x;
+        sum += light_at(first + (vec2f(f32(k), f32(row)) + 0.5) / f32(lattice.x));
     }
-    return sum / f32(disc.samples * disc.samples);
+    return sum / f32(max(lattice.x, 1u));
 }

@@ -21,13 +21,16 @@ pub mod scattering;
 pub mod standard;
 
 use aerosol::Aerosol;
-use refraction::Refraction;
+use refraction::{ObserverAir, Rays, Refraction};
 use standard::standard_pressure_mbar;
 
 /// Radius of the sphere that the air lies on, kilometres: the mean radius of the Earth.
 pub const EARTH_RADIUS_KM: f64 = 6371.0;
 /// Height at which the air ends for every table here, kilometres.
 pub const AIR_TOP_KM: f64 = 120.0;
+
+/// Wavelength whose refraction stands for all where one will do, in vacuum, nanometres.
+pub const SEEN_NM: f64 = 550.0;
 
 /// The air over a place, as plain data.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -194,9 +197,39 @@ impl Atmosphere {
         self.pressure_mbar_at(height_m) / standard_pressure_mbar(height_m)
     }
 
-    /// The refraction that an observer of the given height sees.
+    /// The air at an observer of the given height, as refraction of one wavelength asks for it.
+    pub fn observer_air(&self, height_m: f64, wavelength_nm: f64) -> ObserverAir {
+        ObserverAir {
+            height_m,
+            pressure_mbar: self.pressure_mbar_at(height_m),
+            temperature_c: self.observer.temperature_c,
+            relative_humidity: self.observer.relative_humidity,
+            wavelength_nm,
+        }
+    }
+
+    /// The refraction that an observer of the given height sees, for [`SEEN_NM`], with the horizon of
+    /// the ground around him; none if rays run straight. Some milliseconds: keep it and clone it.
+    ///
+    /// Air that [`Atmosphere::validate_at`] refuses is given Bennett's formula instead.
     pub fn refraction_at(&self, height_m: f64) -> Refraction {
-        Refraction::new(self.pressure_mbar_at(height_m), self.observer.temperature_c)
+        if !self.paths.refracted {
+            return Refraction::NONE;
+        }
+        let air = self.observer_air(height_m, SEEN_NM);
+        let ground_m = 1000.0 * self.ground_km(height_m);
+        Refraction::traced_over_ground(&air, ground_m)
+            .unwrap_or_else(|_| Refraction::new(air.pressure_mbar, air.temperature_c))
+    }
+
+    /// [`Atmosphere::validate`], and that an observer of the given height can see through the air.
+    pub fn validate_at(&self, height_m: f64) -> Result<(), AirError> {
+        self.validate()?;
+        let ground_m = 1000.0 * self.ground_km(height_m);
+        match self.paths.refracted {
+            true => Rays::over_ground(&self.observer_air(height_m, SEEN_NM), ground_m).map(|_| ()),
+            false => Ok(()),
+        }
     }
 }
 

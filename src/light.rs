@@ -6,6 +6,7 @@
 //! [`crate::air::extinction`].
 
 pub mod diffuse;
+pub mod disc_light;
 pub mod moon;
 pub mod night;
 pub mod planets;

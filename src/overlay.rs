@@ -13,16 +13,16 @@ use crate::units::Angle;
 /// Colour of the marks, sRGB: the dim red that eyes in the dark tolerate best.
 const COLOUR: [u8; 3] = [168, 72, 48];
 
-/// Draws marks on a picture taken by `camera`.
-pub fn draw(wanted: Marks, picture: &mut Image<[u8; 3]>, camera: &Camera) {
+/// Draws marks on a picture taken by `camera`, given the apparent altitude of the horizon.
+pub fn draw(wanted: Marks, picture: &mut Image<[u8; 3]>, camera: &Camera, horizon: Angle) {
     let (width, height) = (picture.width_px(), picture.height_px());
     let Some(mut marks) = Pixmap::new(width, height) else { return };
     let size_px = (f64::from(width.min(height)) / 45.0).clamp(7.0, 48.0);
     if wanted.horizon {
-        draw_horizon(&mut marks, camera, (size_px / 14.0) as f32);
+        draw_horizon(&mut marks, camera, horizon, (size_px / 14.0) as f32);
     }
     if wanted.cardinal_points {
-        draw_cardinal_points(&mut marks, camera, size_px);
+        draw_cardinal_points(&mut marks, camera, horizon, size_px);
     }
     for (pixel, mark) in picture.pixels_mut().iter_mut().zip(marks.pixels()) {
         // The marks are premultiplied with their own coverage.
@@ -64,14 +64,15 @@ fn draw_lines(marks: &mut Pixmap, lines: &[Vec<[f64; 2]>], width_px: f32, opacit
     }
 }
 
-fn draw_horizon(marks: &mut Pixmap, camera: &Camera, width_px: f32) {
+fn draw_horizon(marks: &mut Pixmap, camera: &Camera, horizon: Angle, width_px: f32) {
     // Points further off the picture than this are not worth a line, and lines between points
     // further apart than this would cut across a seam of the projection.
     let reach_px = f64::from(marks.width() + marks.height());
     let steps = 1440;
     let mut lines = vec![Vec::new()];
     for step in 0..=steps {
-        let point = pixel_from_local(camera, 360.0 * f64::from(step) / f64::from(steps), 0.0);
+        let azimuth_deg = 360.0 * f64::from(step) / f64::from(steps);
+        let point = pixel_from_local(camera, azimuth_deg, horizon.deg());
         let point = point.filter(|[x, y]| x.abs() < 2.0 * reach_px && y.abs() < 2.0 * reach_px);
         let last: Option<[f64; 2]> = lines.last().and_then(|line| line.last().copied());
         match (point, last) {
@@ -87,17 +88,19 @@ fn draw_horizon(marks: &mut Pixmap, camera: &Camera, width_px: f32) {
     draw_lines(marks, &lines, width_px, 0.7);
 }
 
-fn draw_cardinal_points(marks: &mut Pixmap, camera: &Camera, size_px: f64) {
+fn draw_cardinal_points(marks: &mut Pixmap, camera: &Camera, horizon: Angle, size_px: f64) {
     // Every other wind: the main ones and those half-way between.
     for (index, name) in WINDS.iter().step_by(2).enumerate() {
         let azimuth_deg = 45.0 * index as f64;
-        let Some(foot) = pixel_from_local(camera, azimuth_deg, 0.0) else { continue };
+        let Some(foot) = pixel_from_local(camera, azimuth_deg, horizon.deg()) else { continue };
         if !camera.contains(foot) {
             continue;
         }
         // The letters stand on the horizon's own ground, upright along the local vertical.
         let below = camera.pixel_angle().deg() * size_px;
-        let Some(down) = pixel_from_local(camera, azimuth_deg, -below) else { continue };
+        let Some(down) = pixel_from_local(camera, azimuth_deg, horizon.deg() - below) else {
+            continue;
+        };
         let (dx, dy) = (down[0] - foot[0], down[1] - foot[1]);
         let length = dx.hypot(dy).max(1e-9);
         let (dx, dy) = (dx / length, dy / length);
@@ -163,7 +166,7 @@ mod tests {
             height_px: 360,
         };
         let mut picture = Image::filled(720, 360, [0; 3]);
-        draw(Marks::default(), &mut picture, &camera);
+        draw(Marks::default(), &mut picture, &camera, Angle::ZERO);
         for x in 1..719 {
             assert!(picture.at(x, 179)[0] > 0 || picture.at(x, 180)[0] > 0, "gap at {x}");
         }

@@ -197,7 +197,7 @@ impl Scene {
             height_px: view.height_px,
         }
         .checked()?;
-        self.air.validate()?;
+        self.air.validate_at(at.height_m)?;
         self.check_numbers()?;
         let tolerance = match self.tolerance_arcsec {
             Some(arcsec) => Angle::from_arcsec(arcsec),

@@ -16,6 +16,7 @@ use nocturne::image::HdrFrame;
 use nocturne::overlay;
 use nocturne::render::Renderer;
 use nocturne::scene::Scene;
+use nocturne::units::Angle;
 use support::{GpuTest, check, drawn};
 
 /// Set to `write` to draw the goldens again.
@@ -45,18 +46,24 @@ fn main() {
 
 fn golden(renderer: &Renderer, path: &Path) -> Result<(), Failed> {
     let scene = Scene::parse(&std::fs::read_to_string(path)?)?;
-    let (frame, setting, _) = drawn(renderer, &scene)?;
+    let (frame, setting, night) = drawn(renderer, &scene)?;
     if std::env::var(WRITE_VARIABLE).is_ok_and(|value| value == "write") {
-        return write(&scene, &frame, &setting.camera, path);
+        return write(&scene, &frame, &setting.camera, night.horizon, path);
     }
     let (golden, _) = exr::read(&path.with_extension("exr"))?;
     compare(&frame, &golden)
 }
 
-fn write(scene: &Scene, frame: &HdrFrame, camera: &Camera, path: &Path) -> Result<(), Failed> {
+fn write(
+    scene: &Scene,
+    frame: &HdrFrame,
+    camera: &Camera,
+    horizon: Angle,
+    path: &Path,
+) -> Result<(), Failed> {
     exr::write(OutputFile::create(&path.with_extension("exr"))?, frame, &[])?;
     let mut seen = scene.eye.see(frame, camera.pixel_angle()).picture;
-    overlay::draw(scene.marks, &mut seen, camera);
+    overlay::draw(scene.marks, &mut seen, camera, horizon);
     Ok(png::write(OutputFile::create(&path.with_extension("png"))?, &seen)?)
 }
 

@@ -4,7 +4,7 @@
 use std::mem::offset_of;
 
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
-use nocturne::render::uniforms::{CameraUniform, DiscUniform, SkyUniform};
+use nocturne::render::uniforms::{CameraUniform, DiscBandUniform, DiscUniform, SkyUniform};
 
 fn parsed(name: &str, source: &str) -> naga::Module {
     let module = naga::front::wgsl::parse_str(source)
@@ -64,17 +64,18 @@ fn uniforms_have_one_layout_on_both_sides() {
         [
             first_px,
             last_px,
+            lowest_in_view,
+            lowest,
             centre,
             to_sun,
-            body_from_horizon,
-            limb,
-            lowest_rad,
-            step_rad,
-            samples,
-            map_width,
+            body_from_disc,
             occluder,
-            luminance,
-            geometric_altitude
+            samples,
+            per_step,
+            edge,
+            bands,
+            map_width
         ]
     );
+    same_layout!(discs, "Band", DiscBandUniform, [limb, luminance, above_centre]);
 }

@@ -6,9 +6,10 @@
 //! space, and the length of path is `ds = du / (d(n r) / dr)`, so nothing diverges at the horizon.
 //! Auer & Standish 2000, *AJ* 119, 2472, choose the zenith angle itself for the same end.
 //!
-//! *Accuracy.* Gauss and Legendre's rule of order 6 between heights where the profiles are smooth.
-//! Columns and bending agree with stepping along the ray as far as stepping is good, 0.02 % (tested in
-//! `tests/light.rs` and `tests/refraction.rs`).
+//! *Accuracy.* Gauss and Legendre's rule between heights where the profiles are smooth: of order 6
+//! between those of [`LEVELS_KM`] for the bending, of order 3 between the nodes of densities that are
+//! straight there. Columns and bending agree with stepping along the ray as far as stepping is good,
+//! 0.02 % (tested in `tests/light.rs` and `tests/refraction.rs`).
 
 use crate::air::{AIR_TOP_KM, EARTH_RADIUS_KM};
 use crate::units::Angle;
@@ -60,11 +61,11 @@ pub(super) trait RefractiveAir {
         (height_km, bending)
     }
 
-    /// The apparent altitude of the horizon of a smooth sea: zero at its level and below, lower from
-    /// a height.
-    fn horizon_altitude(&self, height_km: f64) -> Angle {
-        let ground = self.scaled_radius_km(0.0);
-        let here = self.scaled_radius_km(height_km.max(0.0));
+    /// The apparent altitude of the horizon of smooth ground all around: zero at its level and below,
+    /// lower from a height above it.
+    fn horizon_altitude(&self, height_km: f64, ground_km: f64) -> Angle {
+        let ground = self.scaled_radius_km(ground_km);
+        let here = self.scaled_radius_km(height_km.max(ground_km));
         // By the tangent: the cosine of a small angle loses half its digits.
         let sine_squared = ((here - ground) * (here + ground)).max(0.0);
         Angle::from_rad(-sine_squared.sqrt().atan2(ground))
@@ -107,20 +108,21 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
         Ray { air, invariant_km, observer_km, lowest_km, observer_u_km, lowest_u_km }
     }
 
-    /// Visits the ray in steps.
-    pub fn for_each_step(&self, mut visit: impl FnMut(&Step)) {
-        /// Heights between which the profiles are smooth, and thin enough for six nodes each.
-        const LEVELS_KM: [f64; 27] = [
-            0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 11.02, 13.0, 16.0, 20.06,
-            25.0, 28.0, 32.16, 36.0, 40.0, 47.35, 51.41, 60.0, 71.8, 86.0, 100.0, AIR_TOP_KM,
-        ];
+    /// Visits the ray in steps, by a rule of Gauss and Legendre between ascending heights; the last of
+    /// them is where the air ends.
+    pub fn for_each_step(
+        &self,
+        levels_km: &[f64],
+        rule: &[(f64, f64)],
+        mut visit: impl FnMut(&Step),
+    ) {
         let mut from_u_km = self.lowest_u_km;
         // The last point that was found, from which the next one is guessed.
         let mut known_km = self.lowest_km;
         let mut known = self.air.bending_at(known_km);
         let mut step_to = |end_u_km: f64, passes: f64| {
             let (middle, half) = (0.5 * (from_u_km + end_u_km), 0.5 * (end_u_km - from_u_km));
-            for (node, weight) in GAUSS_6 {
+            for &(node, weight) in rule {
                 let scaled_radius_km = self.invariant_km.hypot(middle + half * node);
                 let rise_km = (scaled_radius_km - known.scaled_radius_km(known_km))
                     / known.scaled_radius_slope(known_km);
@@ -137,7 +139,7 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
             from_u_km = end_u_km;
         };
         // What lies below the observer is passed twice.
-        for level_km in LEVELS_KM {
+        for &level_km in levels_km {
             if level_km > self.lowest_km && level_km < self.observer_km {
                 step_to(self.u_km(level_km), 2.0);
             }
@@ -145,7 +147,7 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
         if self.lowest_km < self.observer_km {
             step_to(self.observer_u_km, 2.0);
         }
-        for level_km in LEVELS_KM {
+        for &level_km in levels_km {
             if level_km > self.observer_km {
                 step_to(self.u_km(level_km), 1.0);
             }
@@ -155,7 +157,7 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
     /// How far the ray turns on its way, `-1/n dn/dr cos(altitude) ds` summed up: the refraction.
     pub fn bending(&self) -> Angle {
         let mut rad = 0.0;
-        self.for_each_step(|step| {
+        self.for_each_step(&LEVELS_KM, &GAUSS_6, |step| {
             let Bending { refractivity, slope_per_km } = step.bending;
             rad -= slope_per_km / (1.0 + refractivity) * step.cos_altitude * step.length_km;
         });
@@ -170,7 +172,17 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
     }
 }
 
-/// Nodes and weights of Gauss and Legendre's rule of order 6 on [-1, 1].
+/// Heights between which the index is smooth, and near enough for six nodes each, kilometres.
+const LEVELS_KM: [f64; 27] = [
+    0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 11.02, 13.0, 16.0, 20.06, 25.0, 28.0,
+    32.16, 36.0, 40.0, 47.35, 51.41, 60.0, 71.8, 86.0, 100.0, AIR_TOP_KM,
+];
+
+/// Nodes and weights of Gauss and Legendre's rule of order 3 on [-1, 1].
+pub(super) const GAUSS_3: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+
+/// The same of order 6.
 const GAUSS_6: [(f64, f64); 6] = [
     (-0.932_469_514_203_152, 0.171_324_492_379_170_4),
     (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),

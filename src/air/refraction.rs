@@ -38,7 +38,8 @@ use crate::units::Angle;
 
 pub use bennett::Bennett;
 pub use profile::ObserverAir;
-pub use traced::Traced;
+pub(super) use profile::Profile;
+pub use traced::{Rays, Traced};
 
 /// The refraction of one air. The default has none.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,12 +65,22 @@ impl Refraction {
     }
 
     /// By rays followed through the air; some milliseconds to make, then as quick as the formula.
+    /// Clones share the tables.
     ///
     /// # Errors
     ///
-    /// See [`Traced::through`].
+    /// See [`Rays::over_ground`].
     pub fn traced(air: &ObserverAir) -> Result<Self, AirError> {
-        Ok(Refraction::Traced(Arc::new(Traced::through(air)?)))
+        Refraction::traced_over_ground(air, 0.0)
+    }
+
+    /// The same over ground of a height above sea level, metres: see [`Traced::over_ground`].
+    ///
+    /// # Errors
+    ///
+    /// See [`Rays::over_ground`].
+    pub fn traced_over_ground(air: &ObserverAir, ground_m: f64) -> Result<Self, AirError> {
+        Ok(Refraction::Traced(Arc::new(Traced::over_ground(air, ground_m)?)))
     }
 
     /// Apparent minus true altitude, given the apparent one.
@@ -91,6 +102,22 @@ impl Refraction {
             Refraction::Bennett(formula) => formula.apparent_from_true(altitude),
             Refraction::Traced(rays) => rays.apparent_from_true(altitude),
         }
+    }
+
+    /// How much smaller a small solid angle is seen than it is, `d(apparent) / d(true)`, at an
+    /// apparent altitude: 0.82 at the horizon of the sea, 1 in the zenith.
+    ///
+    /// Air keeps radiance, so that what is seen smaller gives less light: the same factor dims a
+    /// point of light (the divergence of its beam).
+    pub fn divergence(&self, apparent: Angle) -> f64 {
+        let slope = match self {
+            Refraction::Bennett(formula) => formula.slope_at_apparent_altitude(apparent),
+            Refraction::Traced(rays) => rays.slope_at_apparent_altitude(apparent),
+        };
+        let (across, true_across) = (apparent.cos(), self.true_from_apparent(apparent).cos());
+        // In the zenith both vanish, and their ratio is that of the altitudes.
+        let level = if across > 1e-6 { across / true_across } else { 1.0 / (1.0 - slope) };
+        level / (1.0 - slope)
     }
 
     /// Where the light of a direction is seen to come from.

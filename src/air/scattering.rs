@@ -22,8 +22,7 @@ mod field;
 mod harmonics;
 mod lanes;
 mod path;
-
-mod profile;
+pub(in crate::air) mod profile;
 mod rays;
 mod reconstruction;
 mod solve;

@@ -42,7 +42,7 @@ pub fn draw(
     let frame = rendered.frame;
     let seen = progress.step("seeing", || {
         let mut seen = scene.eye.see(&frame, setting.camera.pixel_angle());
-        overlay::draw(scene.marks, &mut seen.picture, &setting.camera);
+        overlay::draw(scene.marks, &mut seen.picture, &setting.camera, night.horizon);
         seen
     });
     Ok(Drawn {

@@ -28,6 +28,9 @@ pub fn write(
         writeln!(out, "Drawn and skipped")?;
         for entry in &drawn.ledger.entries {
             writeln!(out, "  {:<18} {:>7} drawn", entry.layer, entry.drawn)?;
+            for how in &entry.how {
+                writeln!(out, "  {:<18} {:>7} {how}", "", "")?;
+            }
             for (reason, count) in &entry.skipped {
                 writeln!(out, "  {:<18} {count:>7} skipped: {reason}", "")?;
             }

@@ -33,6 +33,8 @@ pub struct DescribedPlace {
     pub latitude_deg: f64,
     pub longitude_deg: f64,
     pub height_m: f64,
+    /// Apparent altitude of the horizon; below zero from above the ground around.
+    pub horizon_altitude_deg: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -71,7 +73,7 @@ pub struct DescribedObject {
     pub magnitude_v: f64,
     /// Outside the air.
     pub illuminance_lx: f64,
-    /// Through the air; zero below the horizon.
+    /// Through the air; zero below the horizon. Of the Sun and the Moon that of what stands above.
     pub illuminance_ground_lx: f64,
     /// Solid angle of the pixel that it falls on; none when out of view.
     pub pixel_solid_angle_sr: Option<f64>,
@@ -90,7 +92,7 @@ impl Description {
         let described = |object: &LitObject| {
             let pixel = camera
                 .pixel_from_apparent(object.apparent)
-                .filter(|_| object.apparent.altitude() >= Angle::ZERO)
+                .filter(|_| object.apparent.altitude() >= night.horizon)
                 .filter(|&pixel| camera.contains(pixel));
             let (kind, catalogue) = match object.kind {
                 Kind::Body(Body::Sun) => ("sun", None),
@@ -124,6 +126,7 @@ impl Description {
                 latitude_deg: as_written(place.latitude),
                 longitude_deg: as_written(place.longitude),
                 height_m: place.height_m,
+                horizon_altitude_deg: night.horizon.deg(),
             },
             camera: DescribedCamera {
                 projection: camera.projection.name(),

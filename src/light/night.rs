@@ -1,10 +1,12 @@
 //! Everything in the sky that is drawn as itself: where it stands, where it is seen, how bright.
 
 use crate::air::Atmosphere;
-use crate::air::extinction::transmittance;
+use crate::air::extinction::SightLines;
+use crate::air::refraction::Refraction;
 use crate::catalog::Star;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::disc_light::{point_light, visible_light};
 use crate::light::moon::{self, MoonView};
 use crate::light::planets::{self, Planet, PlanetView};
 use crate::light::spectrum::Spectrum;
@@ -39,7 +41,8 @@ pub struct LitObject {
     pub magnitude: Magnitude,
     /// Photopic illuminance outside the air, on a plane that faces it.
     pub outside: Illuminance,
-    /// Illuminance through the air, lux; black below the horizon.
+    /// Illuminance through the air, lux; black below the horizon. Of the Sun and the Moon that of
+    /// what is above it, if the air says that they are [discs](crate::air::LightPaths).
     pub ground: Xyzv,
 }
 
@@ -48,6 +51,10 @@ pub struct LitObject {
 pub struct Night {
     pub sky: SkyState,
     pub air: Atmosphere,
+    /// How the air bends light, made once for the night; clones share its tables.
+    pub refraction: Refraction,
+    /// Apparent altitude of the horizon of the ground around: zero on it, lower from above it.
+    pub horizon: Angle,
     /// Sun, Moon, planets, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,
     pub stars: Vec<Star>,
@@ -58,13 +65,16 @@ impl Night {
     pub fn of(sky: SkyState, stars: Vec<Star>, air: &Atmosphere) -> Night {
         let height_m = sky.place.height_m;
         let refraction = air.refraction_at(height_m);
+        let sight = SightLines::over(air, height_m);
+        let horizon = sight.horizon();
         let body = |state: &BodyState, spectrum: Spectrum| {
             let apparent = refraction.apparent_from_horizon(state.dir);
             let outside = spectrum.xyzv();
-            let ground = if apparent.altitude() < Angle::ZERO {
-                Xyzv::BLACK
-            } else {
-                (spectrum * transmittance(air, height_m, apparent.altitude())).xyzv()
+            let sets_bit_by_bit =
+                air.paths.source_disc && matches!(state.body, Body::Sun | Body::Moon);
+            let ground = match sets_bit_by_bit {
+                true => visible_light(state, &spectrum, &sight, &refraction),
+                false => point_light(apparent.altitude(), &spectrum, &sight, &refraction),
             };
             LitObject {
                 kind: Kind::Body(state.body),
@@ -84,10 +94,11 @@ impl Night {
         objects.extend(stars.iter().zip(directions).enumerate().map(|(index, (star, dir))| {
             let apparent = refraction.apparent_from_horizon(dir);
             let outside = star.magnitude.illuminance();
-            let ground = if apparent.altitude() < Angle::ZERO {
+            let altitude = apparent.altitude();
+            let ground = if altitude < horizon {
                 Xyzv::BLACK
             } else {
-                starlight.at_eye(star.b_v, apparent.altitude(), outside)
+                starlight.at_eye(star.b_v, altitude, outside) * refraction.divergence(altitude)
             };
             LitObject {
                 kind: Kind::Star(index),
@@ -99,7 +110,7 @@ impl Night {
                 ground,
             }
         }));
-        Night { sky, air: air.clone(), objects, stars }
+        Night { sky, air: air.clone(), refraction, horizon, objects, stars }
     }
 
     /// Where the Sun, the Moon and the planets stand.

@@ -10,7 +10,7 @@
 use rayon::prelude::*;
 
 use crate::air::Atmosphere;
-use crate::air::extinction::{horizon_altitude, transmittance};
+use crate::air::extinction::SightLines;
 use crate::light::star_colour::{B_V_RANGE, black_body};
 use crate::units::{Angle, Illuminance, Xyzv};
 
@@ -31,14 +31,15 @@ pub struct StarLight {
 impl StarLight {
     /// For the air over an observer, whose height above sea level is in metres.
     pub fn new(air: &Atmosphere, height_m: f64) -> Self {
-        let horizon = horizon_altitude(air, height_m);
+        let sight = SightLines::over(air, height_m);
+        let horizon = sight.horizon();
         let bodies: Vec<_> =
             (0..COLOURS).map(|k| black_body(b_v_of_node(k)).scaled_to_photopic(1.0)).collect();
         let logarithms = (0..ALTITUDES)
             .into_par_iter()
             .flat_map_iter(|row| {
                 let altitude = horizon + (Angle::from_deg(90.0) - horizon) * share_of_row(row);
-                let through = transmittance(air, height_m, altitude);
+                let through = sight.transmittance(altitude);
                 bodies.iter().map(move |body| {
                     let light = (*body * through).xyzv();
                     // Light may vanish in thick haze, where its logarithm must not.
@@ -99,6 +100,7 @@ fn share_of_altitude(altitude: Angle, horizon: Angle) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::air::extinction::transmittance;
     use crate::light::star_colour;
     use crate::units::Magnitude;
 

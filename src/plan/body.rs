@@ -1,19 +1,22 @@
 //! The Sun, the Moon and planets as the camera has them: as a point, a few points, or a disc.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DMat3;
 
-use crate::air::extinction::transmittance;
-use crate::air::refraction::Refraction;
+use crate::air::extinction::SightLines;
+use crate::air::refraction::{Rays, Refraction};
 use crate::camera::Camera;
 use crate::catalog::{CatalogError, MoonMap};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::night::{LitObject, Night};
+use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
 use crate::units::{Angle, Xyzv};
 
-use super::disc::{AlbedoMap, Disc, DiscNode, DiscShape, NODES, SurfaceLaw};
+use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -21,12 +24,28 @@ const POINT_PX: f64 = 0.5;
 const SMALL_PX: f64 = 8.0;
 /// Rings of points in a small disc: 3 n^2 points.
 pub const SMALL_DISC_RINGS: usize = 12;
-/// Samples across a disc that is just not small; larger ones have more, one a pixel at least.
-const SAMPLES_ACROSS: f64 = 48.0;
-/// Wavelength whose limb darkening stands for all: near the peak of photopic sight.
+/// A disc smaller than this has as many samples inside as at its edges.
+const COARSE_PX: f64 = 48.0;
+/// Samples in a pixel, inside a large disc and at edges.
+const INSIDE: Lattice = Lattice { points: 5, turn: 3 };
+const EDGE: Lattice = Lattice { points: 34, turn: 21 };
+/// Samples are those of an edge within this many pixels of it: the scale of a picture may differ by
+/// half along and across.
+const EDGE_PX: f64 = 2.5;
+/// Wavelength whose limb darkening stands for all where one does: near the peak of photopic sight.
 const LIMB_NM: f64 = 555.0;
 /// Points of the limb that find out where on the picture a disc lies.
 const LIMB_POINTS: usize = 64;
+/// The nodes reach beyond a limb by this share of the radius.
+const BEYOND_LIMB: f64 = 0.01;
+
+/// Wavelengths whose refraction tells whether colours come apart, and how far they may unseen, pixels.
+const DISPERSION_NM: [f64; 2] = [650.0, 450.0];
+const UNSEEN_PX: f64 = 0.2;
+/// Wavelengths of the first and the last band: beyond them low air leaves no light, or eyes see none.
+const BANDS_NM: [f64; 2] = [680.0, 420.0];
+/// Bands that a disc is divided into: more where they would stand more than a pixel apart.
+const BANDS: [usize; 2] = [8, 32];
 
 /// A body, its light, and the camera that looks at it.
 pub struct SeenBody<'a> {
@@ -34,16 +53,39 @@ pub struct SeenBody<'a> {
     object: &'a LitObject,
     night: &'a Night,
     camera: &'a Camera,
-    refraction: Refraction,
-    across_px: f64,
-    nodes: Nodes,
+    px_per_rad: f64,
 }
 
-/// Light of the whole body through the air, by apparent altitude across its disc.
-struct Nodes {
+/// The air across a disc: by apparent altitude from its lowest visible point up.
+pub struct DiscAir {
     lowest: Angle,
     step: Angle,
-    light: [Xyzv; NODES],
+    /// From red to blue, or one alone.
+    bands: Vec<BandAir>,
+}
+
+struct BandAir {
+    /// Where the limb darkening is taken.
+    nm: f64,
+    /// True altitudes of the nodes, and the light of the whole body through the air there, lux.
+    nodes: Vec<(Angle, Xyzv)>,
+}
+
+impl DiscAir {
+    /// Bands of colour that the disc is drawn in.
+    pub fn bands(&self) -> usize {
+        self.bands.len()
+    }
+
+    /// Light of the whole body if all of it stood at this apparent altitude, in a single band, lux.
+    fn light_at(&self, altitude: Angle) -> Xyzv {
+        let nodes = &self.bands[0].nodes;
+        let place =
+            ((altitude - self.lowest).rad() / self.step.rad()).clamp(0.0, (NODES - 1) as f64);
+        let low = (place as usize).min(NODES - 2);
+        let along = place - low as f64;
+        nodes[low].1 * (1.0 - along) + nodes[low + 1].1 * along
+    }
 }
 
 impl<'a> SeenBody<'a> {
@@ -53,68 +95,136 @@ impl<'a> SeenBody<'a> {
         night: &'a Night,
         camera: &'a Camera,
     ) -> SeenBody<'a> {
-        let height_m = night.sky.place.height_m;
-        let refraction = night.air.refraction_at(height_m);
-        let spectrum = night.irradiance(state);
         let pixel_sr = camera
             .pixel_from_apparent(object.apparent)
             .map_or(0.0, |pixel| camera.pixel_solid_angle_sr(pixel));
         // Where the plane has no place for the centre, the scale of the picture's own centre.
         let px_per_rad = if pixel_sr > 0.0 { pixel_sr.sqrt().recip() } else { camera.focal_px() };
-        let limb = |sign: f64| {
-            let altitude = state.dir.altitude() + state.angular_radius * sign;
-            let quarter = std::f64::consts::FRAC_PI_2;
-            refraction.apparent_from_true(Angle::from_rad(altitude.rad().clamp(-quarter, quarter)))
-        };
-        let lowest = limb(-1.0);
-        let step = (limb(1.0) - lowest) / (NODES - 1) as f64;
-        let light = std::array::from_fn(|node| {
-            let altitude = lowest + step * node as f64;
-            (spectrum * transmittance(&night.air, height_m, altitude)).xyzv()
-        });
-        SeenBody {
-            across_px: 2.0 * state.angular_radius.rad() * px_per_rad,
-            nodes: Nodes { lowest, step, light },
-            state,
-            object,
-            night,
-            camera,
-            refraction,
-        }
+        SeenBody { state, object, night, camera, px_per_rad }
     }
 
+    fn across_px(&self) -> f64 {
+        2.0 * self.state.angular_radius.rad() * self.px_per_rad
+    }
+    fn refraction(&self) -> &Refraction {
+        &self.night.refraction
+    }
     pub fn is_point(&self) -> bool {
-        self.across_px < POINT_PX
+        self.across_px() < POINT_PX
     }
     pub fn is_small(&self) -> bool {
-        self.across_px < SMALL_PX
+        self.across_px() < SMALL_PX
     }
     pub fn apparent(&self) -> Dir<Apparent> {
         self.object.apparent
     }
-    /// Light of the whole body at its centre's altitude, lux.
+    /// Light of the body, lux: see [`LitObject::ground`].
     pub fn light(&self) -> Xyzv {
         self.object.ground
     }
-    pub fn apparent_from_horizon(&self, dir: Dir<Horizon>) -> Dir<Apparent> {
-        self.refraction.apparent_from_horizon(dir)
+
+    /// Whether all of it has set.
+    pub fn is_below_horizon(&self) -> bool {
+        self.limb(1.0) < self.night.horizon
     }
 
-    /// Light of the whole body if all of it stood at this apparent altitude, lux.
-    pub fn light_at(&self, altitude: Angle) -> Xyzv {
-        let nodes = &self.nodes;
-        if nodes.step.rad() <= 0.0 {
-            return nodes.light[0];
+    /// Apparent altitude of the lower (-1) or upper (+1) limb, or of a height in radii between.
+    fn limb(&self, radii: f64) -> Angle {
+        let altitude = self.state.dir.altitude() + self.state.angular_radius * radii;
+        let altitude = Angle::from_rad(altitude.rad().clamp(-FRAC_PI_2, FRAC_PI_2));
+        self.refraction().apparent_from_true(altitude)
+    }
+
+    /// How far refraction draws the colours of [`DISPERSION_NM`] apart where the disc is lowest.
+    fn dispersion(&self) -> Angle {
+        let [red, blue] = DISPERSION_NM.map(|nm| self.rays(nm));
+        let (Some(red), Some(blue)) = (red, blue) else { return Angle::ZERO };
+        let lowest = self.limb(-1.0).max(self.night.horizon);
+        blue.at_apparent_altitude(lowest) - red.at_apparent_altitude(lowest)
+    }
+
+    /// Rays of one wavelength; none if they run straight.
+    fn rays(&self, wavelength_nm: f64) -> Option<Rays> {
+        let (air, height_m) = (&self.night.air, self.night.sky.place.height_m);
+        let observer = air.observer_air(height_m, wavelength_nm);
+        let ground_m = 1000.0 * air.ground_km(height_m);
+        air.paths.refracted.then(|| Rays::over_ground(&observer, ground_m).ok()).flatten()
+    }
+
+    /// The air across the disc; none when no part of it is above the horizon.
+    pub fn air(&self) -> Option<DiscAir> {
+        let dispersion = self.dispersion();
+        let apart_px = dispersion.rad() * self.px_per_rad;
+        let is_coloured = apart_px > UNSEEN_PX && !self.is_small();
+        // Blue is lifted, red is lowered, by about half of what parts them.
+        let spread = if is_coloured { dispersion } else { Angle::ZERO };
+        let lowest = (self.limb(-1.0 - BEYOND_LIMB) - spread).max(self.night.horizon);
+        let highest = self.limb(1.0 + BEYOND_LIMB) + spread;
+        if highest <= lowest {
+            return None;
         }
-        let place =
-            ((altitude - nodes.lowest).rad() / nodes.step.rad()).clamp(0.0, (NODES - 1) as f64);
-        let low = (place as usize).min(NODES - 2);
-        let along = place - low as f64;
-        nodes.light[low] * (1.0 - along) + nodes.light[low + 1] * along
+        let step = (highest - lowest) / (NODES - 1) as f64;
+        let altitudes: [Angle; NODES] = std::array::from_fn(|node| lowest + step * node as f64);
+
+        let sight = SightLines::over(&self.night.air, self.night.sky.place.height_m);
+        let irradiance = self.night.irradiance(self.state);
+        let spectra = altitudes.map(|altitude| irradiance * sight.transmittance(altitude));
+        let bands = if is_coloured { self.coloured(apart_px, &altitudes, &spectra) } else { None };
+        let bands = bands.unwrap_or_else(|| {
+            let node = |(altitude, spectrum): (&Angle, &Spectrum)| {
+                (self.refraction().true_from_apparent(*altitude), spectrum.xyzv())
+            };
+            let nodes = altitudes.iter().zip(&spectra).map(node).collect();
+            vec![BandAir { nm: LIMB_NM, nodes }]
+        });
+        Some(DiscAir { lowest, step, bands })
+    }
+
+    /// The bands of colour, equally far apart in refraction, which goes nearly as the inverse square
+    /// of the wavelength. Between the middles of two bands light is shared out between them.
+    fn coloured(
+        &self,
+        apart_px: f64,
+        altitudes: &[Angle; NODES],
+        spectra: &[Spectrum; NODES],
+    ) -> Option<Vec<BandAir>> {
+        let [red, blue] = BANDS_NM.map(|nm: f64| nm.powi(-2));
+        let [red_of, blue_of] = DISPERSION_NM.map(|nm: f64| nm.powi(-2));
+        let across_px = apart_px * (blue - red) / (blue_of - red_of);
+        let last = (across_px.ceil() as usize).clamp(BANDS[0] - 1, BANDS[1] - 1);
+        let band = |band: usize| {
+            let nm = (red + (blue - red) * band as f64 / last as f64).powf(-0.5);
+            let share = |nm: f64| {
+                let place = (nm.powi(-2) - red) / (blue - red) * last as f64;
+                (1.0 - (place.clamp(0.0, last as f64) - band as f64).abs()).max(0.0)
+            };
+            let rays = self.rays(nm)?;
+            let nodes = altitudes.iter().zip(spectra).map(|(&altitude, spectrum)| {
+                let stands = altitude - rays.at_apparent_altitude(altitude);
+                (stands, spectrum.weighted(share).xyzv())
+            });
+            Some(BandAir { nm, nodes: nodes.collect() })
+        };
+        (0..=last).map(band).collect()
+    }
+
+    /// The points of light of a small disc that are above the horizon and not hidden.
+    pub fn points<'s>(
+        &'s self,
+        shape: &DiscShape,
+        air: &'s DiscAir,
+    ) -> impl Iterator<Item = (Dir<Apparent>, Xyzv)> + 's {
+        let seen = shape.samples(SMALL_DISC_RINGS).into_iter();
+        seen.filter(|sample| !self.is_hidden(sample.dir)).filter_map(|sample| {
+            let apparent = self.refraction().apparent_from_horizon(sample.dir);
+            let altitude = apparent.altitude();
+            let light = air.light_at(altitude) * self.refraction().divergence(altitude);
+            (altitude >= self.night.horizon).then_some((apparent, light * sample.share))
+        })
     }
 
     /// Whether the Moon stands in front of this direction, and this is not the Moon.
-    pub fn is_hidden(&self, dir: Dir<Horizon>) -> bool {
+    fn is_hidden(&self, dir: Dir<Horizon>) -> bool {
         self.state.body != Body::Moon && self.night.sky.moon.state.covers(dir)
     }
 
@@ -130,7 +240,7 @@ impl<'a> SeenBody<'a> {
         for step in 0..LIMB_POINTS {
             let turn = std::f64::consts::TAU * step as f64 / LIMB_POINTS as f64;
             let limb = centre * cos_radius + (side * turn.cos() + across * turn.sin()) * sin_radius;
-            let apparent = self.apparent_from_horizon(Dir::from_vector(limb));
+            let apparent = self.refraction().apparent_from_horizon(Dir::from_vector(limb));
             let Some(pixel) = self.camera.pixel_from_apparent(apparent) else {
                 // Some of it is where the plane ends. If the centre is too, there is nothing.
                 return self.camera.pixel_from_apparent(self.apparent()).and(everything);
@@ -144,8 +254,13 @@ impl<'a> SeenBody<'a> {
         if self.camera.wrap_px().is_some_and(|wrap| last[0] - first[0] > 0.5 * wrap) {
             return everything;
         }
-        let first = [(first[0] - 1.0).floor().max(0.0), (first[1] - 1.0).floor().max(0.0)];
-        let last = [(last[0] + 1.0).ceil().min(width), (last[1] + 1.0).ceil().min(height)];
+        // The limb bulges between its points, and its colours stand apart.
+        let bulge = 1.0 - (std::f64::consts::PI / LIMB_POINTS as f64).cos();
+        let across_px = f64::max(last[0] - first[0], last[1] - first[1]);
+        let margin_px = 1.0 + bulge * across_px + self.dispersion().rad() * self.px_per_rad;
+        let first = first.map(|v| (v - margin_px).floor().max(0.0));
+        let last =
+            [(last[0] + margin_px).ceil().min(width), (last[1] + margin_px).ceil().min(height)];
         (first[0] < last[0] && first[1] < last[1]).then_some([first, last])
     }
 
@@ -179,28 +294,47 @@ impl<'a> SeenBody<'a> {
     }
 
     /// The disc that the GPU draws.
-    pub fn disc(&self, shape: DiscShape, bounds_px: [[f64; 2]; 2]) -> Disc {
-        let (mean, solid_angle_sr) = (shape.mean(), shape.solid_angle_sr());
-        let nodes = &self.nodes;
-        let node = |index: usize| DiscNode {
-            geometric_altitude: self
-                .refraction
-                .true_from_apparent(nodes.lowest + nodes.step * index as f64),
+    pub fn disc(&self, shape: DiscShape, air: &DiscAir, bounds_px: [[f64; 2]; 2]) -> Disc {
+        let solid_angle_sr = shape.solid_angle_sr();
+        let mean_of_all = match shape.law {
+            SurfaceLaw::Sun { .. } => None,
+            _ => Some(shape.mean()),
+        };
+        let band = |band: &BandAir| {
+            let law = LimbDarkening::at_nm(band.nm);
+            let mean = mean_of_all.unwrap_or_else(|| law.disc_mean());
             // Nothing of a new Moon is lit, and nothing of it is drawn.
-            luminance: if mean > 0.0 {
-                nodes.light[index] * (1.0 / (mean * solid_angle_sr))
-            } else {
-                Xyzv::BLACK
-            },
+            let per_lux = if mean > 0.0 { 1.0 / (mean * solid_angle_sr) } else { 0.0 };
+            let altitude = |node: usize| band.nodes[node].0;
+            let nodes = (0..NODES).map(|node| DiscNode {
+                above_centre: altitude(node) - self.state.dir.altitude(),
+                rise: match node {
+                    0 => altitude(1) * 2.0 - (altitude(2) + altitude(0) * 3.0) / 2.0,
+                    n if n == NODES - 1 => {
+                        (altitude(n) * 3.0 + altitude(n - 2)) / 2.0 - altitude(n - 1) * 2.0
+                    }
+                    n => (altitude(n + 1) - altitude(n - 1)) / 2.0,
+                },
+                luminance: band.nodes[node].1 * per_lux,
+            });
+            DiscBand { limb_darkening: law.coefficients(), nodes: nodes.collect() }
         };
         let moon = &self.night.sky.moon.state;
+        let lowest = Dir::from_azimuth_altitude(self.state.dir.azimuth(), air.lowest);
+        let radius_px = 0.5 * self.across_px();
+        let apart_px = match air.bands() {
+            1 => 0.0,
+            _ => self.dispersion().rad() * self.px_per_rad,
+        };
         Disc {
             label: self.state.body.name(),
             bounds_px,
-            lowest: nodes.lowest,
-            step: nodes.step,
-            nodes: std::array::from_fn(node),
-            samples: ((SAMPLES_ACROSS / self.across_px).ceil() as u32).clamp(2, 8),
+            lowest,
+            lowest_in_view: self.camera.view_from_apparent() * lowest,
+            step: air.step,
+            bands: air.bands.iter().map(band).collect(),
+            samples: [if radius_px < 0.5 * COARSE_PX { EDGE } else { INSIDE }, EDGE],
+            edge: (EDGE_PX + apart_px) / radius_px,
             occluder: (self.state.body != Body::Moon).then_some((moon.dir, moon.angular_radius)),
             shape,
         }

@@ -1,12 +1,22 @@
 //! Bodies that show a disc, as the picture needs them.
+//!
+//! *Theory.* The air keeps radiance and bends light: in each apparent direction the disc is as bright
+//! as its surface in the true direction is, times the transmittance. A disc is therefore drawn from the
+//! picture back to the body, by nodes across it that give the true altitude and the luminance for an
+//! apparent one. Flattening, the light that is lost by it, and the sliver above the horizon follow.
+//!
+//! *Colour.* Air bends blue light more than red, by 26" at the horizon between 450 and 650 nm: the limb
+//! has a green rim above and a red one below. Where that shows, the disc is the sum of several bands of
+//! colour, each with its own refraction and its own limb darkening; the bands share the spectrum out
+//! so that their sum is the light of a single one. Where it does not show there is one band.
 
 use glam::{DMat3, DVec3};
 
-use crate::frame::{Dir, Horizon};
+use crate::frame::{Apparent, Dir, Horizon, View};
 use crate::units::{Angle, Xyzv};
 
 /// Number of altitudes across a disc at which the air is looked through.
-pub const NODES: usize = 9;
+pub const NODES: usize = 33;
 
 /// How the light of a disc is spread over it.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,9 +72,21 @@ pub struct DiscShape {
 /// The air that a disc is seen through, at one apparent altitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscNode {
-    pub geometric_altitude: Angle,
+    /// True altitude of what is seen there, less that of the centre.
+    pub above_centre: Angle,
+    /// How much it grows from this node to the next, by its slope here.
+    pub rise: Angle,
     /// Luminance of a surface whose shape is one, seen through the air, cd/m2.
     pub luminance: Xyzv,
+}
+
+/// A disc in one band of colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiscBand {
+    /// Coefficients of the limb darkening, for the Sun alone.
+    pub limb_darkening: [f64; 6],
+    /// Lowest first, at equal steps of the apparent altitude.
+    pub nodes: Vec<DiscNode>,
 }
 
 /// A disc that is drawn.
@@ -74,15 +96,30 @@ pub struct Disc {
     pub shape: DiscShape,
     /// Top left and bottom right corner of the pixels that it can touch.
     pub bounds_px: [[f64; 2]; 2],
-    /// Apparent altitude of the first node.
-    pub lowest: Angle,
+    /// Where the lowest node is seen: at the azimuth of the centre, on the lower limb or at the
+    /// horizon.
+    pub lowest: Dir<Apparent>,
+    /// The same direction in the axes of the camera.
+    pub lowest_in_view: Dir<View>,
     /// Apparent altitude from one node to the next.
     pub step: Angle,
-    pub nodes: [DiscNode; NODES],
-    /// Samples per pixel, along each axis.
-    pub samples: u32,
+    /// One, or some from red to blue; their light adds up.
+    pub bands: Vec<DiscBand>,
+    /// Samples in a pixel: inside the disc, and near its edges.
+    pub samples: [Lattice; 2],
+    /// How far from an edge the samples are those of the edge, in radii of the disc.
+    pub edge: f64,
     /// What stands in front of it: geometric direction and angular radius.
     pub occluder: Option<(Dir<Horizon>, Angle)>,
+}
+
+/// Points spread evenly over a pixel: the lattice of Fibonacci, in which no two points share a column
+/// or a row, so that a level edge is seen in steps of `1 / points`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lattice {
+    /// A number of Fibonacci, and the one before it.
+    pub points: u32,
+    pub turn: u32,
 }
 
 /// A point of a disc and its share of the disc's light outside the air; the shares sum to one.

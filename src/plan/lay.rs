@@ -9,7 +9,7 @@ use crate::scene::{Layers, Setting};
 use crate::sky::BodyState;
 use crate::units::{Angle, Xyzv};
 
-use super::body::{self, SeenBody};
+use super::body::SeenBody;
 use super::ledger::Ledger;
 use super::skylight::{self, Shines};
 use super::{FramePlan, PlanError, SkyPlan, Splat};
@@ -20,6 +20,9 @@ const SPLAT_REACH_PX: f64 = 2.0;
 const SPLAT_PEAK: f64 = 4.0 / 9.0;
 /// A point whose brightest pixel is fainter than this share of the sky behind it is not drawn.
 const DROWNED: f64 = 1e-4;
+
+/// How much higher than its yellow light the blue light of a limb may stand.
+const BLUE_RIM: Angle = Angle::from_arcmin(1.0);
 
 const OUT_OF_VIEW: &str = "out of view";
 const BELOW_HORIZON: &str = "below the horizon";
@@ -58,11 +61,19 @@ pub fn lay(
                 };
                 lay_body(&seen, map, &mut plan)?
             }
-            None => lay_point(&camera, object.apparent, object.ground, &mut plan.splats),
+            None => match lay_point(&camera, object.apparent, object.ground, &mut plan.splats) {
+                true => Laid::Points,
+                false => Laid::Not(OUT_OF_VIEW),
+            },
         };
         match drawn {
-            true => ledger.draw(layer),
-            false => ledger.skip(layer, OUT_OF_VIEW),
+            Laid::Points => ledger.draw(layer),
+            Laid::Disc { bands } => {
+                ledger.draw(layer);
+                let plural = if bands == 1 { "" } else { "s" };
+                ledger.tell(layer, format!("{}: {bands} band{plural}", night.label(object)));
+            }
+            Laid::Not(reason) => ledger.skip(layer, reason),
         }
     }
     Ok((plan, ledger))
@@ -125,7 +136,8 @@ fn visible(
     }
     // A disc may show its upper limb when its centre has set.
     let radius = state_of(object, night).map_or(Angle::ZERO, |state| state.angular_radius);
-    if object.apparent.altitude() + radius < Angle::ZERO {
+    let margin = if radius > Angle::ZERO { radius + BLUE_RIM } else { Angle::ZERO };
+    if object.apparent.altitude() + margin < night.horizon {
         return Err(BELOW_HORIZON);
     }
     if is_lamp {
@@ -148,31 +160,42 @@ fn visible(
     Ok(())
 }
 
-/// Draws a body as a disc, or as points of light when it is small. False when it is out of view.
+/// What became of a body on the picture.
+enum Laid {
+    Points,
+    /// As a disc in so many bands of colour.
+    Disc {
+        bands: usize,
+    },
+    Not(&'static str),
+}
+
+/// Draws a body as a disc, or as points of light when it is small.
 fn lay_body(
     seen: &SeenBody,
     moon_map: impl FnOnce() -> Result<Option<MoonMap>, CatalogError>,
     plan: &mut FramePlan,
-) -> Result<bool, PlanError> {
+) -> Result<Laid, PlanError> {
+    let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };
     if seen.is_point() {
-        return Ok(lay_point(&plan.camera, seen.apparent(), seen.light(), &mut plan.splats));
+        if seen.is_below_horizon() {
+            return Ok(Laid::Not(BELOW_HORIZON));
+        }
+        let any = lay_point(&plan.camera, seen.apparent(), seen.light(), &mut plan.splats);
+        return Ok(points(any));
     }
-    let Some(bounds_px) = seen.bounds_px() else { return Ok(false) };
+    let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
+    let Some(air) = seen.air() else { return Ok(Laid::Not(BELOW_HORIZON)) };
     let shape = seen.shape(moon_map)?;
     if seen.is_small() {
-        let samples = shape.samples(body::SMALL_DISC_RINGS);
         let mut any = false;
-        for sample in samples.iter().filter(|sample| !seen.is_hidden(sample.dir)) {
-            let apparent = seen.apparent_from_horizon(sample.dir);
-            if apparent.altitude() >= Angle::ZERO {
-                let light = seen.light_at(apparent.altitude()) * sample.share;
-                any |= lay_point(&plan.camera, apparent, light, &mut plan.splats);
-            }
+        for (apparent, light) in seen.points(&shape, &air) {
+            any |= lay_point(&plan.camera, apparent, light, &mut plan.splats);
         }
-        return Ok(any);
+        return Ok(points(any));
     }
-    plan.discs.push(seen.disc(shape, bounds_px));
-    Ok(true)
+    plan.discs.push(seen.disc(shape, &air, bounds_px));
+    Ok(Laid::Disc { bands: air.bands() })
 }
 
 /// Adds a point of light, again where the picture repeats. False when it is out of view.

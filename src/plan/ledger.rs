@@ -7,6 +7,8 @@ pub struct Entry {
     pub drawn: usize,
     /// Reasons, and how many things each of them spared.
     pub skipped: Vec<(&'static str, usize)>,
+    /// How it is drawn, where there is a choice.
+    pub how: Vec<String>,
 }
 
 /// The layers, in the order in which they are drawn.
@@ -19,6 +21,11 @@ impl Ledger {
     /// Notes that something of a layer is drawn.
     pub fn draw(&mut self, layer: &'static str) {
         self.entry(layer).drawn += 1;
+    }
+
+    /// Notes how something of a layer is drawn.
+    pub fn tell(&mut self, layer: &'static str, how: String) {
+        self.entry(layer).how.push(how);
     }
 
     /// Notes that something of a layer is not drawn.
@@ -39,7 +46,7 @@ impl Ledger {
         let index = match self.entries.iter().position(|entry| entry.layer == layer) {
             Some(index) => index,
             None => {
-                self.entries.push(Entry { layer, drawn: 0, skipped: Vec::new() });
+                self.entries.push(Entry { layer, drawn: 0, skipped: Vec::new(), how: Vec::new() });
                 self.entries.len() - 1
             }
         };

@@ -5,7 +5,7 @@ use crate::plan::disc::{Disc, SurfaceLaw};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
-use super::uniforms::DiscUniform;
+use super::uniforms::{DiscBandUniform, DiscUniform};
 
 pub struct DiscPass {
     pipeline: wgpu::RenderPipeline,
@@ -29,7 +29,9 @@ impl DiscPass {
         };
         let albedo =
             gpu.buffer("albedo", bytemuck::cast_slice(albedo), wgpu::BufferUsages::STORAGE);
-        let group = frame.bind(&self.pipeline, &[&uniform, &albedo]);
+        let bands: Vec<DiscBandUniform> = disc.bands.iter().map(DiscBandUniform::of).collect();
+        let bands = gpu.buffer("bands", bytemuck::cast_slice(&bands), wgpu::BufferUsages::STORAGE);
+        let group = frame.bind(&self.pipeline, &[&uniform, &albedo, &bands]);
         frame.pass(disc.label, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &group, &[]);

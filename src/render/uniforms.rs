@@ -5,8 +5,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::DMat3;
 
 use crate::camera::{Camera, Projection};
+use crate::frame::{Dir, Horizon};
+use crate::light::disc_light::disc_axes;
 use crate::plan::SkyPlan;
-use crate::plan::disc::{Disc, NODES, SurfaceLaw};
+use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::{SKY_ALTITUDES, SKY_AZIMUTHS};
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
@@ -38,17 +40,26 @@ pub struct SkyUniform {
 pub struct DiscUniform {
     pub first_px: [f32; 2],
     pub last_px: [f32; 2],
+    pub lowest_in_view: [f32; 4],
+    pub lowest: [f32; 4],
     pub centre: [f32; 4],
     pub to_sun: [f32; 4],
-    pub body_from_horizon: [[f32; 4]; 3],
-    pub limb: [[f32; 4]; 2],
-    pub lowest_rad: f32,
-    pub step_rad: f32,
-    pub samples: u32,
-    pub map_width: u32,
+    pub body_from_disc: [[f32; 4]; 3],
     pub occluder: [f32; 4],
+    pub samples: [u32; 4],
+    pub per_step: f32,
+    pub edge: f32,
+    pub bands: u32,
+    pub map_width: u32,
+}
+
+/// `Band` of `shaders/discs.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct DiscBandUniform {
+    pub limb: [[f32; 4]; 2],
     pub luminance: [[f32; 4]; NODES],
-    pub geometric_altitude: [[f32; 4]; NODES],
+    pub above_centre: [[f32; 4]; NODES],
 }
 
 /// One instance of `shaders/splats.wgsl`.
@@ -96,31 +107,51 @@ impl DiscUniform {
         let shape = &disc.shape;
         let pixel = |p: [f64; 2]| p.map(|v| v as f32);
         let with = |v: glam::DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
-        let (law, limb, map_width) = match &shape.law {
-            SurfaceLaw::Sun { limb_darkening: a } => (0.0, *a, 0),
-            SurfaceLaw::Moon { map } => (1.0, [0.0; 6], map.width),
-            SurfaceLaw::Lambert => (2.0, [0.0; 6], 0),
+        let (law, map_width) = match &shape.law {
+            SurfaceLaw::Sun { .. } => (0.0, 0),
+            SurfaceLaw::Moon { map } => (1.0, map.width),
+            SurfaceLaw::Lambert => (2.0, 0),
         };
-        let limb = limb.map(|a| a as f32);
+        let horizon_from_disc = DMat3::from_cols_array_2d(&disc_axes(shape.centre).map(Into::into));
+        let in_disc = |dir: Dir<Horizon>| horizon_from_disc.transpose() * dir.vector();
+        let (view, lowest) = (disc.lowest_in_view.vector(), disc.lowest.vector());
+        let (sin, cos) = shape.centre.altitude().sin_cos();
+        let sin_radius = shape.angular_radius.sin();
+        let [inside, edge] = disc.samples;
         DiscUniform {
             first_px: pixel(disc.bounds_px[0]),
             last_px: pixel(disc.bounds_px[1]),
-            centre: with(shape.centre.vector(), shape.angular_radius.sin()),
-            to_sun: with(shape.dir_to_sun.vector(), law),
-            body_from_horizon: columns(shape.body_from_horizon),
-            limb: [[limb[0], limb[1], limb[2], limb[3]], [limb[4], limb[5], 0.0, 0.0]],
-            lowest_rad: disc.lowest.rad() as f32,
-            step_rad: disc.step.rad() as f32,
-            samples: disc.samples,
+            // One less the cosine of the angle from the axis keeps its digits, the cosine does not.
+            lowest_in_view: with(glam::DVec3::new(view.x, view.y, 1.0 + view.z), 0.0),
+            lowest: with(lowest, lowest.x.hypot(lowest.y)),
+            centre: [sin as f32, cos as f32, sin_radius as f32, 0.0],
+            to_sun: with(in_disc(shape.dir_to_sun), law),
+            body_from_disc: columns(shape.body_from_horizon * horizon_from_disc),
+            // A chord of zero hides nothing.
+            occluder: disc.occluder.map_or([0.0; 4], |(dir, radius)| {
+                let at = in_disc(dir);
+                let chord = 2.0 * (radius.rad() / 2.0).sin();
+                with(glam::DVec3::new(at.x, at.y, 1.0 - at.z), chord)
+            }),
+            samples: [inside.points, inside.turn, edge.points, edge.turn],
+            per_step: (1.0 / disc.step.rad()) as f32,
+            edge: disc.edge as f32,
+            bands: disc.bands.len() as u32,
             map_width: map_width as u32,
-            // A radius of zero hides nothing.
-            occluder: disc
-                .occluder
-                .map_or([0.0; 4], |(dir, radius)| with(dir.vector(), radius.sin())),
-            luminance: disc.nodes.map(|node| node.luminance.to_f32()),
-            geometric_altitude: disc
-                .nodes
-                .map(|node| [node.geometric_altitude.rad() as f32, 0.0, 0.0, 0.0]),
+        }
+    }
+}
+
+impl DiscBandUniform {
+    pub fn of(band: &DiscBand) -> Self {
+        let limb = band.limb_darkening.map(|a| a as f32);
+        let node = |at: usize| &band.nodes[at];
+        DiscBandUniform {
+            limb: [[limb[0], limb[1], limb[2], limb[3]], [limb[4], limb[5], 0.0, 0.0]],
+            luminance: std::array::from_fn(|at| node(at).luminance.to_f32()),
+            above_centre: std::array::from_fn(|at| {
+                [node(at).above_centre.rad() as f32, node(at).rise.rad() as f32, 0.0, 0.0]
+            }),
         }
     }
 }

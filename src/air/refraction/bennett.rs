@@ -47,6 +47,11 @@ impl Bennett {
         Angle::from_arcmin(self.scale * bennett(apparent.deg()).0)
     }
 
+    /// What the refraction gains in a unit of the apparent altitude.
+    pub(super) fn slope_at_apparent_altitude(&self, apparent: Angle) -> f64 {
+        self.scale * bennett(apparent.deg()).1 / 60.0
+    }
+
     /// The apparent altitude of what stands at a true one.
     pub fn apparent_from_true(&self, altitude: Angle) -> Angle {
         let true_deg = altitude.deg();

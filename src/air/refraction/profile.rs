@@ -39,7 +39,7 @@ pub struct ObserverAir {
 }
 
 /// Temperature, pressure and vapour against height, over and below one observer.
-pub(super) struct Profile {
+pub(in crate::air) struct Profile {
     layers: [Layer; LAYERS.len()],
     refractivity: Refractivity,
     /// Where vapour thins out upwards, if the observer stands in it.

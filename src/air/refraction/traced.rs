@@ -44,32 +44,75 @@ pub struct Traced {
     gain: f64,
 }
 
-impl Traced {
-    /// Follows rays through the air.
+/// Rays followed one by one: exact, without the tables of [`Traced`]. For a few altitudes in each of
+/// many colours.
+pub struct Rays {
+    profile: Profile,
+    height_km: f64,
+    ground_km: f64,
+}
+
+impl Rays {
+    /// Through the air over ground of a height above sea level, metres; an observer below it stands
+    /// on it.
     ///
     /// # Errors
     ///
     /// A number outside the range that [`ObserverAir`] states, or air so dense that it bends light
     /// around the Earth.
-    pub fn through(air: &ObserverAir) -> Result<Traced, AirError> {
+    pub fn over_ground(air: &ObserverAir, ground_m: f64) -> Result<Rays, AirError> {
         check(air)?;
         let profile = Profile::over(air);
         let height_km = air.height_m / 1000.0;
-        let ground_km = height_km.min(0.0);
+        let ground_km = height_km.min(ground_m / 1000.0);
         for low_km in [ground_km, height_km] {
             let slope = profile.bending_at(low_km).scaled_radius_slope(low_km);
-            if slope < LEAST_SLOPE {
+            // Written so that NaN, which is no slope, is refused too.
+            if !(slope >= LEAST_SLOPE) {
                 return Err(AirError::Duct {
                     pressure_mbar: air.pressure_mbar,
                     height_m: air.height_m,
                 });
             }
         }
-        let horizon = profile.horizon_altitude(height_km);
+        Ok(Rays { profile, height_km, ground_km })
+    }
+
+    /// Apparent altitude of the horizon of the ground.
+    pub fn horizon(&self) -> Angle {
+        self.profile.horizon_altitude(self.height_km, self.ground_km)
+    }
+
+    /// Apparent minus true altitude, given the apparent one, not below the horizon; some
+    /// microseconds.
+    pub fn at_apparent_altitude(&self, apparent: Angle) -> Angle {
+        Ray::new(&self.profile, self.height_km, apparent).bending()
+    }
+}
+
+impl Traced {
+    /// Follows rays through the air, over the sea.
+    ///
+    /// # Errors
+    ///
+    /// See [`Rays::over_ground`].
+    pub fn through(air: &ObserverAir) -> Result<Traced, AirError> {
+        Traced::over_ground(air, 0.0)
+    }
+
+    /// Follows rays through the air over ground of a height above sea level, metres. The ground says
+    /// how low the horizon lies; an observer below it stands on it.
+    ///
+    /// # Errors
+    ///
+    /// See [`Rays::over_ground`].
+    pub fn over_ground(air: &ObserverAir, ground_m: f64) -> Result<Traced, AirError> {
+        let rays = Rays::over_ground(air, ground_m)?;
+        let horizon = rays.horizon();
         let follow = |apparent_deg: f64| match apparent_deg {
             // The vertical ray is not bent; its altitude in radians is rounded.
             90.0.. => 0.0,
-            _ => Ray::new(&profile, height_km, Angle::from_deg(apparent_deg)).bending().deg(),
+            _ => rays.at_apparent_altitude(Angle::from_deg(apparent_deg)).deg(),
         };
         let by_apparent = Spline::through(horizon.deg(), follow);
         let (refraction_deg, slope) = by_apparent.value_and_slope(horizon.deg());
@@ -90,7 +133,7 @@ impl Traced {
         })
     }
 
-    /// Apparent altitude of the horizon of a smooth sea.
+    /// Apparent altitude of the horizon of the ground.
     pub fn horizon(&self) -> Angle {
         self.horizon
     }
@@ -103,6 +146,11 @@ impl Traced {
     /// Apparent minus true altitude, given the apparent one.
     pub fn at_apparent_altitude(&self, apparent: Angle) -> Angle {
         Angle::from_deg(self.value_and_slope(apparent.deg()).0)
+    }
+
+    /// What the refraction gains in a unit of the apparent altitude: negative.
+    pub(super) fn slope_at_apparent_altitude(&self, apparent: Angle) -> f64 {
+        self.value_and_slope(apparent.deg()).1
     }
 
     /// The apparent altitude of what stands at a true one.
