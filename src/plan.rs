@@ -11,7 +11,7 @@ pub mod skylight;
 
 use thiserror::Error;
 
-use crate::air::scattering::{ScatteringError, SkyView};
+use crate::air::scattering::{ScatteringError, SkyShape, SkyView};
 use crate::camera::Camera;
 use crate::catalog::CatalogError;
 use crate::frame::{Apparent, Dir};
@@ -46,60 +46,65 @@ pub struct Splat {
     pub illuminance: Xyzv,
 }
 
-/// Number of relative azimuths in a sky table, from the source (0) to opposite it (180 degrees).
-pub const SKY_AZIMUTHS: usize = 49;
-/// Number of apparent altitudes in a sky table: 90 degrees times t squared, t from 0 to 1.
-pub const SKY_ALTITUDES: usize = 64;
+/// The nodes of the tables of a [`SkyPlan`]: read with straight lines, see [`SkyView`].
+pub const SKY_SHAPE: SkyShape = SkyShape { above: 121, below: 41, azimuths: 73 };
 
-/// The light of the sky as tables, and of the ground.
+/// The light of the sky, and of the ground seen through the air before it, as tables.
 #[derive(Debug, Clone)]
 pub struct SkyPlan {
-    /// Sunlight scattered by the air; none when the Sun is too far below the horizon.
+    /// Apparent elevation at which the ground begins.
+    pub horizon: Angle,
+    /// Sunlight scattered by the air and the ground; none when the Sun is too far below the horizon.
     pub sun: Option<SourceSky>,
-    /// Moonlight scattered by the air; none when the Moon is down.
+    /// Moonlight scattered by the air and the ground; none when the Moon is down.
     pub moon: Option<SourceSky>,
-    /// The sky without Sun and Moon, by apparent altitude, cd/m2.
+    /// What there is without Sun and Moon, by the rows of [`SKY_SHAPE`], cd/m2.
     pub dark: Vec<Xyzv>,
-    /// Luminance of the ground, cd/m2.
-    pub ground: Xyzv,
 }
 
-/// The light of one source scattered by the air.
+/// The light of one source scattered by the air and the ground.
 #[derive(Debug, Clone)]
 pub struct SourceSky {
     pub azimuth: Angle,
-    /// Azimuths from the source innermost, by apparent altitude, cd/m2.
-    pub luminance: Vec<Xyzv>,
+    /// X, Y, Z and V, cd/m2, in [`SKY_SHAPE`].
+    pub view: SkyView,
 }
 
-/// The altitude of row `row` of a sky table.
-pub fn sky_table_altitude(row: usize) -> Angle {
-    SkyView::elevation_of(row as f64 / (SKY_ALTITUDES - 1) as f64)
+impl SourceSky {
+    /// The light of all nodes, azimuths from the source innermost, rows as in [`SKY_SHAPE`], cd/m2.
+    pub fn luminance(&self) -> Vec<Xyzv> {
+        let shape = self.view.shape;
+        let nodes = (0..shape.nodes()).map(|node| (node / shape.azimuths, node % shape.azimuths));
+        nodes.map(|(row, column)| xyzv(&self.view.light(row, column))).collect()
+    }
 }
 
-/// The azimuth from the source of column `column` of a sky table.
-pub fn sky_table_azimuth(column: usize) -> Angle {
-    Angle::from_deg(180.0 * column as f64 / (SKY_AZIMUTHS - 1) as f64)
+/// Four channels as one light; what is missing is black.
+fn xyzv(channels: &[f64]) -> Xyzv {
+    match *channels {
+        [x, y, z, v] => Xyzv::new(x, y, z, v),
+        _ => Xyzv::BLACK,
+    }
 }
 
 impl SkyPlan {
-    /// The light of the sky in an apparent direction at or above the horizon, cd/m2: the twin of
-    /// `skylight` in `shaders/sky.wgsl`.
+    /// No light at all.
+    pub fn black(horizon: Angle) -> SkyPlan {
+        SkyPlan { horizon, sun: None, moon: None, dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()] }
+    }
+
+    /// The light of the sky, or of the ground below the horizon, from an apparent direction, cd/m2:
+    /// the twin of `skylight` in `shaders/skylight.wgsl`.
     pub fn luminance(&self, dir: Dir<Apparent>) -> Xyzv {
-        let row = SkyView::row_of(dir.altitude()) * (SKY_ALTITUDES - 1) as f64;
-        let r0 = (row as usize).min(SKY_ALTITUDES - 2);
-        let up = row - r0 as f64;
-        let mix = |a: Xyzv, b: Xyzv, t: f64| a * (1.0 - t) + b * t;
-        let mut light = mix(self.dark[r0], self.dark[r0 + 1], up);
+        let altitude = dir.altitude();
+        let above = altitude >= self.horizon;
+        let (row, up) = SKY_SHAPE.row_at(altitude, self.horizon, above);
+        let mut light = self.dark[row] * (1.0 - up) + self.dark[row + 1] * up;
+        let azimuth = dir.azimuth();
         for source in [&self.sun, &self.moon].into_iter().flatten() {
-            let from_source = (dir.azimuth() - source.azimuth).signed().abs();
-            let column = from_source.deg() / 180.0 * (SKY_AZIMUTHS - 1) as f64;
-            let c0 = (column as usize).min(SKY_AZIMUTHS - 2);
-            let along = column - c0 as f64;
-            let texel = |row: usize, column: usize| source.luminance[row * SKY_AZIMUTHS + column];
-            let lower = mix(texel(r0, c0), texel(r0, c0 + 1), along);
-            let upper = mix(texel(r0 + 1, c0), texel(r0 + 1, c0 + 1), along);
-            light += mix(lower, upper, up);
+            let mut channels = [0.0; 4];
+            source.view.sample_side(altitude, azimuth - source.azimuth, above, &mut channels);
+            light += xyzv(&channels);
         }
         light
     }

@@ -9,13 +9,17 @@ pub mod uniforms;
 
 mod discs;
 mod sky;
+pub mod sky_tiles;
 mod splats;
 mod target;
 
+use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
-use crate::plan::FramePlan;
+use crate::plan::{FramePlan, SkyPlan};
+use crate::units::Xyzv;
 
 use gpu::{Gpu, GpuError, PassTime};
+use sky_tiles::SkyDetail;
 
 /// The pipelines, made once; what a frame needs is made with the frame.
 pub struct Renderer {
@@ -49,14 +53,24 @@ impl Renderer {
 
     /// Draws the frame and brings it back.
     pub fn frame(&self, plan: &FramePlan) -> Result<Rendered, GpuError> {
+        self.frame_with(plan, SkyDetail::Tiles)
+    }
+
+    /// The same, the sky drawn in a way that is given.
+    pub fn frame_with(&self, plan: &FramePlan, detail: SkyDetail) -> Result<Rendered, GpuError> {
         let camera = &plan.camera;
         let mut frame = target::Target::new(&self.gpu, camera)?;
 
-        self.sky.draw(&mut frame, &plan.sky, camera);
+        self.sky.draw(&mut frame, &plan.sky, camera, detail);
         for disc in &plan.discs {
             self.discs.draw(&mut frame, disc);
         }
         self.splats.draw(&mut frame, &plan.splats);
         frame.finish()
+    }
+
+    /// The light of the sky and the ground in apparent directions, cd/m2, looked up as pictures do.
+    pub fn sky_in(&self, sky: &SkyPlan, dirs: &[Dir<Apparent>]) -> Result<Vec<Xyzv>, GpuError> {
+        self.sky.look_up(&self.gpu, sky, dirs)
     }
 }

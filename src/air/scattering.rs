@@ -25,6 +25,7 @@ mod path;
 pub(in crate::air) mod profile;
 mod rays;
 mod reconstruction;
+mod sky_view;
 mod solve;
 mod source;
 mod view;
@@ -38,13 +39,21 @@ use crate::units::Angle;
 use field::Field;
 use lanes::{LANES, Lanes};
 pub use profile::{EARTH_RADIUS_KM, TOP_KM};
-use profile::{Optics, Profile, WAVELENGTH_RANGE_NM};
+use profile::{Optics, WAVELENGTH_RANGE_NM};
 pub use rays::RaySteps;
 use rays::{Geometry, Medium, Ray, Source};
-pub use reconstruction::{Matrix, SKY_NODES_NM, reconstruction_matrix};
+pub use reconstruction::{Matrix, SKY_NODES_NM, SUMS, SpectralSums, reconstruction_matrix};
+pub use sky_view::{PHASE_VALUES, Phase, SkyRays, SkyShape, SkyView, turn};
 pub use solve::Directions;
 use source::{Beams, SourceTable};
 use view::{FirstOrder, add_higher_orders, direct_on_ground, first_order};
+
+/// Apparent elevation of the horizon that an eye sees, without solving for any light: the eye and the
+/// observer, at whom the pressure of the air is given, by height above sea level.
+pub fn horizon(air: &Atmosphere, height_m: f64, eye_km: f64) -> Angle {
+    let geometry = Geometry::of(air, height_m);
+    geometry.horizon(eye_km.clamp(geometry.ground_km, TOP_KM))
+}
 
 /// Why no tables could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -232,6 +241,8 @@ pub struct ScatteringTables {
     geometry: Geometry,
     beams: Beams,
     bands: Vec<Band>,
+    /// What sky views divide the light of haze by.
+    phase: Option<Phase>,
 }
 
 /// The rays of one observer, cut once for all sources.
@@ -298,10 +309,8 @@ impl ScatteringTables {
             return Err(ScatteringError::Wavelength(bad));
         }
         let density_ratio = air.density_ratio_at(height_m);
-        let ground_km = air.ground_km(height_m);
-        let refractivity =
-            if air.paths.refracted { SEA_LEVEL_REFRACTIVITY * density_ratio } else { 0.0 };
-        let geometry = Geometry { profile: Profile::new(air), ground_km, refractivity };
+        let geometry = Geometry::of(air, height_m);
+        let Geometry { ground_km, refractivity, .. } = geometry;
         let disc_radius = if air.paths.source_disc { DISC_RADIUS } else { Angle::ZERO };
         let beams = Beams::new(&geometry.profile, ground_km, refractivity, disc_radius);
         let straight = geometry.straight();
@@ -346,6 +355,7 @@ impl ScatteringTables {
             geometry,
             beams,
             bands,
+            phase: Phase::of(air),
         }))
     }
 
@@ -466,86 +476,5 @@ impl ScatteringTables {
         let diffuse = all(&|band| band.field.ground_irradiance(cosine));
         let direct = all(&|band| direct_on_ground(&self.medium(band), cosine));
         (diffuse, direct)
-    }
-
-    /// The sky above the horizontal as a table; `n_az` and `n_el` at least 2.
-    pub fn sky_view(
-        &self,
-        observer_height_km: f64,
-        cos_sun_zenith: f64,
-        n_az: usize,
-        n_el: usize,
-    ) -> SkyView {
-        let (n_az, n_el) = (n_az.max(2), n_el.max(2));
-        let n = self.wavelengths_nm.len();
-        let cos_azimuths: Vec<f64> = (0..n_az)
-            .map(|i| (std::f64::consts::PI * i as f64 / (n_az - 1) as f64).cos())
-            .collect();
-        let elevation = |i: usize| SkyView::elevation_of(i as f64 / (n_el - 1) as f64);
-        let elevations: Vec<Angle> = (0..n_el).map(elevation).collect();
-        let rays = self.view_rays(observer_height_km, &elevations);
-        let rows: Vec<Vec<f32>> = (0..n_el)
-            .into_par_iter()
-            .map(|i| {
-                let mut row = vec![0.0; n_az * n];
-                for b in 0..self.bands.len() {
-                    let along = self.along(&rays, i, b, cos_sun_zenith, &cos_azimuths);
-                    for (out, light) in row.chunks_exact_mut(n).zip(along) {
-                        let all = light.smooth + light.haze;
-                        for (out, value) in out[b * LANES..].iter_mut().zip(all.0) {
-                            *out = value;
-                        }
-                    }
-                }
-                row
-            })
-            .collect();
-        SkyView { n_az, n_el, n_wavelengths: n, radiance: rows.concat() }
-    }
-}
-
-/// The diffuse sky of one observer and one source: radiance per unit irradiance, sr^-1.
-///
-/// Rows of elevation `90 t^2` degrees for equal steps of `t`, from the horizontal to the zenith;
-/// columns of azimuth from the source, 0 to 180 degrees in equal steps; wavelengths innermost.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SkyView {
-    pub n_az: usize,
-    pub n_el: usize,
-    pub n_wavelengths: usize,
-    pub radiance: Vec<f32>,
-}
-
-impl SkyView {
-    /// Elevation of a row, `t` from 0 to 1 through the table.
-    pub fn elevation_of(t: f64) -> Angle {
-        Angle::from_deg(90.0 * t * t)
-    }
-    /// The inverse of [`SkyView::elevation_of`]; 0 below the horizontal.
-    pub fn row_of(elevation: Angle) -> f64 {
-        (elevation.deg() / 90.0).clamp(0.0, 1.0).sqrt()
-    }
-
-    /// All wavelengths of a node.
-    pub fn node(&self, i_el: usize, i_az: usize) -> &[f32] {
-        &self.radiance[(i_el * self.n_az + i_az) * self.n_wavelengths..][..self.n_wavelengths]
-    }
-
-    /// Bilinear between nodes; the horizontal stands for all below it.
-    pub fn sample(&self, elevation: Angle, azimuth_from_sun: Angle, out: &mut [f64]) {
-        let place = |t: f64, n: usize| {
-            let t = t * (n - 1) as f64;
-            let i = (t as usize).min(n - 2);
-            (i, (t - i as f64) as f32)
-        };
-        let (e, te) = place(SkyView::row_of(elevation), self.n_el);
-        let (a, ta) = place(azimuth_from_sun.signed().abs().deg() / 180.0, self.n_az);
-        let corners =
-            [self.node(e, a), self.node(e, a + 1), self.node(e + 1, a), self.node(e + 1, a + 1)];
-        for (i, out) in out.iter_mut().enumerate().take(self.n_wavelengths) {
-            let low = corners[0][i] + (corners[1][i] - corners[0][i]) * ta;
-            let high = corners[2][i] + (corners[3][i] - corners[2][i]) * ta;
-            *out = f64::from(low + (high - low) * te);
-        }
     }
 }

@@ -11,8 +11,8 @@ use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
 use super::ledger::Ledger;
-use super::skylight::{self, Shines};
-use super::{FramePlan, PlanError, SkyPlan, Splat};
+use super::skylight::{self, Shines, SolvedAir};
+use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
 
 /// Reach of a splat from its centre, pixels.
 const SPLAT_REACH_PX: f64 = 2.0;
@@ -39,9 +39,20 @@ pub fn lay(
     night: &Night,
     moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
 ) -> Result<(FramePlan, Ledger), PlanError> {
+    lay_in(setting, layers, night, moon_map, &mut None)
+}
+
+/// The same with the solved air of a frame before, which is used again if it is this air.
+pub fn lay_in(
+    setting: &Setting,
+    layers: &Layers,
+    night: &Night,
+    moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
+    solved: &mut Option<SolvedAir>,
+) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
     let mut ledger = Ledger::default();
-    let sky = lay_sky(layers, night, &mut ledger)?;
+    let sky = lay_sky(layers, night, &mut ledger, solved)?;
     let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
     let mut moon_map = Some(moon_map);
 
@@ -79,7 +90,12 @@ pub fn lay(
     Ok((plan, ledger))
 }
 
-fn lay_sky(layers: &Layers, night: &Night, ledger: &mut Ledger) -> Result<SkyPlan, PlanError> {
+fn lay_sky(
+    layers: &Layers,
+    night: &Night,
+    ledger: &mut Ledger,
+    solved: &mut Option<SolvedAir>,
+) -> Result<SkyPlan, PlanError> {
     let switched = |on: bool, shines: Shines| if on { shines } else { Shines::No(SWITCHED_OFF) };
     let sun = switched(layers.skylight, skylight::sun_shines(night));
     let moon = switched(layers.skylight, skylight::moon_shines(night));
@@ -93,12 +109,16 @@ fn lay_sky(layers: &Layers, night: &Night, ledger: &mut Ledger) -> Result<SkyPla
             Shines::No(reason) => ledger.skip(layer, reason),
         }
     }
-    let mut sky = skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes)?;
+    let mut sky = skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes, solved)?;
+    let (above, below) = sky.dark.split_at_mut(SKY_SHAPE.above);
     if !layers.skylight {
-        sky.dark.fill(Xyzv::BLACK);
+        above.fill(Xyzv::BLACK);
     }
     if !layers.ground {
-        sky.ground = Xyzv::BLACK;
+        below.fill(Xyzv::BLACK);
+        for source in [&mut sky.sun, &mut sky.moon].into_iter().flatten() {
+            source.view.blacken_ground();
+        }
     }
     Ok(sky)
 }

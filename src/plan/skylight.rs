@@ -1,16 +1,19 @@
 //! The light of the sky as tables, from the solved air and what shines into it.
 
+use rayon::prelude::*;
+
 use crate::air::Atmosphere;
 use crate::air::scattering::{
-    Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView, reconstruction_matrix,
+    Matrix, Quality, SKY_NODES_NM, SUMS, ScatteringError, ScatteringTables, SkyRays, SkyShape,
+    SpectralSums, horizon, reconstruction_matrix,
 };
+use crate::frame::{Dir, Horizon};
 use crate::light::diffuse::NightSky;
 use crate::light::night::Night;
-use crate::light::spectrum::{FIRST_NM, LEN, STEP_NM, Spectrum, wavelength_nm};
-use crate::sky::BodyState;
+use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
 use crate::units::{Angle, Xyzv};
 
-use super::{SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, SourceSky, sky_table_altitude};
+use super::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// Below this altitude of the Sun its light is nowhere over 2 % of the dark sky. At 18 degrees of
 /// twilight, where the zenith is dark, it is still a third of it above the Sun.
@@ -46,84 +49,115 @@ pub fn moon_shines(night: &Night) -> Shines {
     }
 }
 
-/// The air solved once for an atmosphere, and how its few wavelengths become spectra.
+/// The nodes that are computed; cubics through them make [`SKY_SHAPE`].
+pub const COMPUTED_SHAPE: SkyShape = SkyShape { above: 31, below: 11, azimuths: 25 };
+/// Height of an observer's eye above the ground he stands on, kilometres.
+const EYE_KM: f64 = 0.002;
+
+/// The air solved once for an atmosphere around an observer, and the rays he looks along.
 pub struct SolvedAir {
+    air: Atmosphere,
+    height_m: f64,
     tables: ScatteringTables,
-    spectrum_from_nodes: crate::air::scattering::Matrix,
+    rays: SkyRays,
+    spectrum_from_nodes: Matrix,
 }
 
 impl SolvedAir {
-    pub fn solve(air: &Atmosphere) -> Result<SolvedAir, ScatteringError> {
+    /// For an observer of a height above sea level, metres.
+    pub fn solve(air: &Atmosphere, height_m: f64) -> Result<SolvedAir, ScatteringError> {
         let wavelengths: Vec<f64> = (0..LEN).map(wavelength_nm).collect();
+        let tables = ScatteringTables::for_observer(air, height_m, &SKY_NODES_NM, Quality::RENDER)?;
         Ok(SolvedAir {
-            tables: ScatteringTables::solve(air, &SKY_NODES_NM, Quality::RENDER)?,
+            rays: tables.sky_rays(eye_km(air, height_m), COMPUTED_SHAPE),
+            air: air.clone(),
+            height_m,
+            tables,
             spectrum_from_nodes: reconstruction_matrix(&SKY_NODES_NM, &wavelengths),
         })
     }
 
-    /// A source's spectrum weighed by what the air makes of each wavelength.
-    fn weighed(&self, nodes: &[f64], source: &Spectrum) -> Spectrum {
-        let shares = self.spectrum_from_nodes.spectrum(nodes);
-        source.weighted(|nm| shares[((nm - FIRST_NM) / STEP_NM).round() as usize])
+    /// The air of `solved` if it is this air around this observer; else it is solved and kept there.
+    pub fn kept<'s>(
+        solved: &'s mut Option<SolvedAir>,
+        air: &Atmosphere,
+        height_m: f64,
+    ) -> Result<&'s SolvedAir, ScatteringError> {
+        let same = |kept: &SolvedAir| kept.air == *air && kept.height_m == height_m;
+        match solved.take_if(|kept| same(kept)) {
+            Some(kept) => Ok(solved.insert(kept)),
+            None => Ok(solved.insert(SolvedAir::solve(air, height_m)?)),
+        }
     }
 
-    /// The sky that a source lights, given its spectral irradiance outside the air.
-    fn sky(&self, state: &BodyState, irradiance: &Spectrum, height_km: f64) -> SourceSky {
-        let view = self.tables.sky_view(
-            height_km,
-            state.dir.altitude().sin(),
-            SKY_AZIMUTHS,
-            SKY_ALTITUDES,
-        );
-        SourceSky { azimuth: state.dir.azimuth(), luminance: self.luminance(&view, irradiance) }
+    /// The solved field.
+    pub fn tables(&self) -> &ScatteringTables {
+        &self.tables
     }
 
-    fn luminance(&self, view: &SkyView, irradiance: &Spectrum) -> Vec<Xyzv> {
-        use rayon::prelude::*;
-        view.radiance
-            .par_chunks_exact(view.n_wavelengths)
-            .map(|nodes| {
-                let nodes: Vec<f64> = nodes.iter().map(|&value| f64::from(value)).collect();
-                self.weighed(&nodes, irradiance).xyzv()
+    /// The sky and the ground that a source lights, given its spectral irradiance outside the air.
+    pub fn sky(&self, source: Dir<Horizon>, irradiance: &Spectrum) -> SourceSky {
+        let computed = self.tables.sky_view(&self.rays, source.altitude().sin());
+        let seen = computed.seen_by(&self.sums(irradiance));
+        SourceSky { azimuth: source.azimuth(), view: seen.refined(SKY_SHAPE) }
+    }
+
+    /// What X, Y, Z and V make of a spectrum of light from a source, given at the nodes.
+    fn sums(&self, irradiance: &Spectrum) -> SpectralSums {
+        let weights: Vec<[f64; SUMS]> = (0..LEN)
+            .map(|node| {
+                let line = irradiance.weighted(|nm| f64::from(nm == wavelength_nm(node)));
+                let Xyzv { x, y, z, v } = line.xyzv();
+                [x, y, z, v]
             })
-            .collect()
-    }
-
-    /// Illuminance of level ground by a source, direct and by way of the sky, lux.
-    fn ground(&self, state: &BodyState, irradiance: &Spectrum) -> Xyzv {
-        let (diffuse, direct) = self.tables.ground_irradiance(state.dir.altitude().sin());
-        self.weighed(&diffuse, irradiance).xyzv() + self.weighed(&direct, irradiance).xyzv()
+            .collect();
+        SpectralSums::new(&self.spectrum_from_nodes, &weights)
     }
 }
 
-/// The sky of a night. Solves the air only if something shines into it.
+/// Height above sea level of the eye of an observer, kilometres.
+pub fn eye_km(air: &Atmosphere, height_m: f64) -> f64 {
+    (height_m / 1000.0).max(air.ground_km(height_m) + EYE_KM)
+}
+
+/// The sky of a night. Solves the air only if something shines into it, and if it is not the air that
+/// `solved` holds.
 pub fn sky_plan(
     night: &Night,
     with_sun: bool,
     with_moon: bool,
+    solved: &mut Option<SolvedAir>,
 ) -> Result<SkyPlan, ScatteringError> {
-    let height_km = night.sky.place.height_m.max(0.0) / 1000.0;
-    let natural = NightSky::default();
-    let dark: Vec<Xyzv> = (0..SKY_ALTITUDES)
-        .map(|row| natural.luminance(&night.air, night.sky.place.height_m, sky_table_altitude(row)))
-        .collect();
-    // Level ground under an even sky: pi times its luminance, here that of its middle heights.
-    let mut ground = dark[SKY_ALTITUDES * 2 / 3] * std::f64::consts::PI;
-    let (mut sun, mut moon) = (None, None);
-    let lights =
-        [(with_sun, &night.sky.sun, &mut sun), (with_moon, &night.sky.moon.state, &mut moon)];
-    let mut solved = None;
-    for (shines, state, sky) in lights {
+    let height_m = night.sky.place.height_m;
+    let mut sky = SkyPlan::black(horizon(&night.air, height_m, eye_km(&night.air, height_m)));
+    for (shines, state, lit) in [
+        (with_sun, &night.sky.sun, &mut sky.sun),
+        (with_moon, &night.sky.moon.state, &mut sky.moon),
+    ] {
         if shines {
-            let irradiance = night.irradiance(state);
-            let air = match &solved {
-                Some(air) => air,
-                None => solved.insert(SolvedAir::solve(&night.air)?),
-            };
-            *sky = Some(air.sky(state, &irradiance, height_km));
-            ground += air.ground(state, &irradiance);
+            let air = SolvedAir::kept(solved, &night.air, height_m)?;
+            *lit = Some(air.sky(state.dir, &night.irradiance(state)));
         }
     }
-    let ground = ground * (night.air.ground.albedo / std::f64::consts::PI);
-    Ok(SkyPlan { sun, moon, dark, ground })
+    sky.dark = dark_sky(night, sky.horizon);
+    Ok(sky)
+}
+
+/// The sky without Sun and Moon, and level ground under it, by the rows of [`SKY_SHAPE`]. The air
+/// between the ground and the eye is left out: 5 km of it at most, at the horizon.
+fn dark_sky(night: &Night, horizon: Angle) -> Vec<Xyzv> {
+    let natural = NightSky::default();
+    let height_m = night.sky.place.height_m;
+    let elevation = |row| SKY_SHAPE.elevation(row, horizon);
+    let mut rows: Vec<Xyzv> = (0..SKY_SHAPE.above)
+        .into_par_iter()
+        .map(|row| natural.luminance(&night.air, height_m, elevation(row)))
+        .collect();
+    // Irradiance of level ground: pi times the mean over the square of the sine.
+    let share = |row: usize| elevation(row).sin().max(0.0).powi(2);
+    let ground: Xyzv = (1..SKY_SHAPE.above)
+        .map(|row| (rows[row - 1] + rows[row]) * (0.5 * (share(row) - share(row - 1))))
+        .sum();
+    rows.resize(SKY_SHAPE.rows(), ground * night.air.ground.albedo);
+    rows
 }

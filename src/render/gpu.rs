@@ -92,6 +92,45 @@ impl Gpu {
         self.device.create_buffer_init(&descriptor)
     }
 
+    /// Buffers at their bindings.
+    pub fn bind(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        buffers: &[(u32, &wgpu::Buffer)],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = buffers
+            .iter()
+            .map(|&(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// A pipeline that computes, by the name of its entry.
+    pub fn compute_pipeline(&self, entry: &str, source: &str) -> wgpu::ComputePipeline {
+        self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: None,
+            module: &self.module(entry, source),
+            entry_point: Some(entry),
+            compilation_options: Default::default(),
+            cache: None,
+        })
+    }
+
+    fn module(&self, label: &str, source: &str) -> wgpu::ShaderModule {
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        })
+    }
+
     /// A pipeline that adds its light to the frame.
     pub fn pipeline(
         &self,
@@ -100,21 +139,46 @@ impl Gpu {
         topology: wgpu::PrimitiveTopology,
         buffers: &[Option<wgpu::VertexBufferLayout>],
     ) -> wgpu::RenderPipeline {
-        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
         let add = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,
             operation: wgpu::BlendOperation::Add,
         };
+        let blend = wgpu::BlendState { color: add, alpha: add };
+        let module = self.module(label, source);
+        self.any_pipeline(label, &module, ["vertex", "fragment"], topology, buffers, Some(blend))
+    }
+
+    /// A pipeline that writes its light over what the frame held, in strips of triangles; its entries
+    /// are those of a stage, `stage_vertex` and `stage_fragment`.
+    pub fn writing_pipeline(
+        &self,
+        label: &str,
+        stage: &str,
+        source: &str,
+        buffers: &[Option<wgpu::VertexBufferLayout>],
+    ) -> wgpu::RenderPipeline {
+        let (vertex, fragment) = (format!("{stage}_vertex"), format!("{stage}_fragment"));
+        let topology = wgpu::PrimitiveTopology::TriangleStrip;
+        let module = self.module(label, source);
+        self.any_pipeline(label, &module, [&vertex, &fragment], topology, buffers, None)
+    }
+
+    fn any_pipeline(
+        &self,
+        label: &str,
+        module: &wgpu::ShaderModule,
+        [vertex, fragment]: [&str; 2],
+        topology: wgpu::PrimitiveTopology,
+        buffers: &[Option<wgpu::VertexBufferLayout>],
+        blend: Option<wgpu::BlendState>,
+    ) -> wgpu::RenderPipeline {
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(label),
             layout: None,
             vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex"),
+                module,
+                entry_point: Some(vertex),
                 compilation_options: Default::default(),
                 buffers,
             },
@@ -122,12 +186,12 @@ impl Gpu {
             depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fragment"),
+                module,
+                entry_point: Some(fragment),
                 compilation_options: Default::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: FRAME_FORMAT,
-                    blend: Some(wgpu::BlendState { color: add, alpha: add }),
+                    blend,
                     write_mask: wgpu::ColorWrites::ALL,
                 })],
             }),

@@ -2,11 +2,13 @@
 
 const QUANTITIES: &str = include_str!("../../shaders/lib/quantities.wgsl");
 const CAMERA: &str = include_str!("../../shaders/lib/camera.wgsl");
+const SKYLIGHT: &str = include_str!("../../shaders/skylight.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 3] = [
-    ("sky", &[QUANTITIES, CAMERA, include_str!("../../shaders/sky.wgsl")]),
+pub const SHADERS: [(&str, &[&str]); 4] = [
+    ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
+    ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("discs", &[QUANTITIES, CAMERA, include_str!("../../shaders/discs.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
 ];

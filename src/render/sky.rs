@@ -1,54 +1,155 @@
-//! The sky and the ground: one full-screen look-up in the tables of the plan.
+//! The sky and the ground: looked up in the tables of the plan, for the tiles of a picture or for
+//! directions that are given.
 
 use crate::camera::Camera;
-use crate::plan::{SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan};
+use crate::frame::{Apparent, Dir};
+use crate::plan::{SKY_SHAPE, SkyPlan};
 use crate::units::Xyzv;
 
-use super::gpu::Gpu;
+use super::gpu::{Gpu, GpuError};
 use super::shaders;
-use super::target::Target;
-use super::uniforms::SkyUniform;
+use super::sky_tiles::{SkyDetail, tiles};
+use super::target::{Target, read_buffer};
+use super::uniforms::{SkyUniform, direction};
 
 pub struct SkyPass {
-    pipeline: wgpu::RenderPipeline,
+    smooth: wgpu::RenderPipeline,
+    exact: wgpu::RenderPipeline,
+    look_up: wgpu::ComputePipeline,
+}
+
+/// The plan as the shaders want it.
+struct Tables {
+    uniform: wgpu::Buffer,
+    table: wgpu::Buffer,
+    phase: wgpu::Buffer,
 }
 
 impl SkyPass {
     pub fn new(gpu: &Gpu) -> SkyPass {
-        let topology = wgpu::PrimitiveTopology::TriangleList;
-        SkyPass { pipeline: gpu.pipeline("sky", &shaders::assembled("sky"), topology, &[]) }
+        let source = shaders::assembled("sky");
+        let tile = wgpu::VertexBufferLayout {
+            array_stride: size_of::<[u32; 4]>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Uint32x4],
+        };
+        let writing =
+            |stage: &str| gpu.writing_pipeline("sky", stage, &source, &[Some(tile.clone())]);
+        SkyPass {
+            smooth: writing("smooth"),
+            exact: writing("exact"),
+            look_up: gpu.compute_pipeline("sky_in", &shaders::assembled("sky-in")),
+        }
     }
 
-    pub fn draw(&self, frame: &mut Target, sky: &SkyPlan, camera: &Camera) {
-        let uniform = SkyUniform::of(sky, camera);
+    /// Draws over the whole frame.
+    pub fn draw(&self, frame: &mut Target, sky: &SkyPlan, camera: &Camera, detail: SkyDetail) {
         let gpu = frame.gpu;
-        let uniform = gpu.buffer("sky", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
-        let table = table(sky);
-        let table =
-            gpu.buffer("sky table", bytemuck::cast_slice(&table), wgpu::BufferUsages::STORAGE);
-        let group = frame.bind(&self.pipeline, &[&uniform, &table]);
+        let tables = Tables::new(gpu, sky, camera.pixel_angle().rad());
+        let tiles = tiles(sky, camera, detail);
+        let buffers = [&frame.camera, &tables.uniform, &tables.table, &tables.phase];
+        let drawn: Vec<_> = [(&self.smooth, &tiles.smooth), (&self.exact, &tiles.exact)]
+            .into_iter()
+            .filter(|(_, tiles)| !tiles.is_empty())
+            .map(|(pipeline, tiles)| {
+                let corners = bytemuck::cast_slice(tiles);
+                let corners = gpu.buffer("sky tiles", corners, wgpu::BufferUsages::VERTEX);
+                let group = gpu.bind(
+                    &pipeline.get_bind_group_layout(0),
+                    &(0..).zip(buffers).collect::<Vec<_>>(),
+                );
+                (pipeline, group, corners, tiles.len() as u32)
+            })
+            .collect();
         frame.pass("sky", |pass| {
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.draw(0..3, 0..1);
+            for (pipeline, group, corners, count) in &drawn {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, group, &[]);
+                pass.set_vertex_buffer(0, corners.slice(..));
+                pass.draw(0..4, 0..*count);
+            }
         });
+    }
+
+    /// Looks up the light in directions.
+    pub fn look_up(
+        &self,
+        gpu: &Gpu,
+        sky: &SkyPlan,
+        dirs: &[Dir<Apparent>],
+    ) -> Result<Vec<Xyzv>, GpuError> {
+        /// Directions of one dispatch: as many work groups as every adapter takes.
+        const AT_ONCE: usize = 64 * 65_535;
+        let tables = Tables::new(gpu, sky, 0.0);
+        let mut lights = Vec::with_capacity(dirs.len());
+        for dirs in dirs.chunks(AT_ONCE) {
+            let dirs: Vec<[f32; 4]> = dirs.iter().map(|dir| direction(*dir, 0.0)).collect();
+            let bytes: &[u8] = bytemuck::cast_slice(&dirs);
+            let dirs_buffer = gpu.buffer("directions", bytes, wgpu::BufferUsages::STORAGE);
+            let out = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("light"),
+                size: bytes.len() as u64,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            });
+            let buffers = [
+                (1, &tables.uniform),
+                (2, &tables.table),
+                (3, &tables.phase),
+                (4, &dirs_buffer),
+                (5, &out),
+            ];
+            let group = gpu.bind(&self.look_up.get_bind_group_layout(0), &buffers);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.look_up);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups((dirs.len() as u32).div_ceil(64), 1, 1);
+            drop(pass);
+            let bytes = read_buffer(gpu, encoder, &out)?;
+            let found: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            lights.extend(found.iter().map(|l| {
+                let [x, y, z, v] = l.map(f64::from);
+                Xyzv::new(x, y, z, v)
+            }));
+        }
+        Ok(lights)
     }
 }
 
-/// The tables one after the other, as `shaders/sky.wgsl` expects them.
-fn table(sky: &SkyPlan) -> Vec<[f32; 4]> {
-    let of_source = SKY_AZIMUTHS * SKY_ALTITUDES;
-    let mut table = vec![[0.0; 4]; 2 * of_source + SKY_ALTITUDES];
-    let mut fill = |start: usize, lights: &[Xyzv]| {
-        for (texel, light) in table[start..].iter_mut().zip(lights) {
-            *texel = light.to_f32();
-        }
-    };
-    for (number, source) in [&sky.sun, &sky.moon].into_iter().enumerate() {
-        if let Some(source) = source {
-            fill(number * of_source, &source.luminance);
+impl Tables {
+    fn new(gpu: &Gpu, sky: &SkyPlan, pixel_rad: f64) -> Tables {
+        let uniform = SkyUniform::of(sky, pixel_rad);
+        let phase = [&sky.sun, &sky.moon].into_iter().flatten().find_map(|s| s.view.phase.as_ref());
+        // A binding cannot be empty; without haze nothing reads it.
+        let phase = phase.map_or(&[0.0f32; 2][..], |phase| phase.values());
+        let storage = |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE);
+        Tables {
+            uniform: gpu.buffer("sky", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
+            table: storage("sky table", bytemuck::cast_slice(&table(sky))),
+            phase: storage("phase function", bytemuck::cast_slice(phase)),
         }
     }
-    fill(2 * of_source, &sky.dark);
+}
+
+/// The tables one after the other, as `shaders/skylight.wgsl` expects them.
+fn table(sky: &SkyPlan) -> Vec<[f32; 4]> {
+    let of_source = 2 * SKY_SHAPE.nodes();
+    let mut table = vec![[0.0; 4]; 2 * of_source + SKY_SHAPE.rows()];
+    for (number, source) in [&sky.sun, &sky.moon].into_iter().enumerate() {
+        let Some(source) = source else { continue };
+        let texels = &mut table[number * of_source..][..of_source];
+        let smooth = source.view.smooth.chunks_exact(4);
+        for (texel, light) in texels.iter_mut().step_by(2).zip(smooth) {
+            texel.copy_from_slice(light);
+        }
+        let haze = source.view.haze.chunks_exact(4);
+        for (texel, light) in texels.iter_mut().skip(1).step_by(2).zip(haze) {
+            texel.copy_from_slice(light);
+        }
+    }
+    for (texel, light) in table[2 * of_source..].iter_mut().zip(&sky.dark) {
+        *texel = light.to_f32();
+    }
     table
 }

@@ -96,19 +96,9 @@ impl<'g> Target<'g> {
         pipeline: &wgpu::RenderPipeline,
         buffers: &[&wgpu::Buffer],
     ) -> wgpu::BindGroup {
-        let buffers = [&[&self.camera], buffers].concat();
-        let entries: Vec<_> = (0..)
-            .zip(&buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
-        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        })
+        let buffers = std::iter::once(&self.camera).chain(buffers.iter().copied());
+        let buffers: Vec<_> = (0..).zip(buffers).collect();
+        self.gpu.bind(&pipeline.get_bind_group_layout(0), &buffers)
     }
 
     /// Draws everything recorded and brings the frame and the times back.
@@ -147,6 +137,18 @@ fn readable_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })
+}
+
+/// Has the commands done and hands over the bytes of a buffer that they filled.
+pub fn read_buffer(
+    gpu: &Gpu,
+    mut encoder: wgpu::CommandEncoder,
+    buffer: &wgpu::Buffer,
+) -> Result<Vec<u8>, GpuError> {
+    let readable = readable_buffer(gpu, buffer.size());
+    encoder.copy_buffer_to_buffer(buffer, 0, &readable, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    with_bytes(gpu, &readable, |bytes| bytes.to_vec())
 }
 
 /// Waits for a buffer and hands its bytes over.

@@ -4,12 +4,12 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat3;
 
+use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
-use crate::frame::{Dir, Horizon};
+use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
-use crate::plan::SkyPlan;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
-use crate::plan::{SKY_ALTITUDES, SKY_AZIMUTHS};
+use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
 #[repr(C)]
@@ -21,17 +21,18 @@ pub struct CameraUniform {
     pub projection: u32,
 }
 
-/// `Sky` of `shaders/sky.wgsl`.
+/// `Sky` of `shaders/skylight.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct SkyUniform {
-    pub source_azimuth: [f32; 2],
-    pub source_shines: [u32; 2],
+    pub sources: [[f32; 4]; 2],
+    pub shines: [u32; 2],
     pub azimuths: u32,
-    pub altitudes: u32,
+    pub above: u32,
+    pub below: u32,
+    pub phases: u32,
+    pub horizon: f32,
     pub half_pixel: f32,
-    pub padding: f32,
-    pub ground: [f32; 4],
 }
 
 /// `Disc` of `shaders/discs.wgsl`.
@@ -88,18 +89,32 @@ impl CameraUniform {
 }
 
 impl SkyUniform {
-    pub fn of(sky: &SkyPlan, camera: &Camera) -> Self {
+    /// Given the height of a pixel, radians.
+    pub fn of(sky: &SkyPlan, pixel_rad: f64) -> Self {
         let sources = [&sky.sun, &sky.moon];
+        let dir = |source: &SourceSky| -> [f32; 4] {
+            let to_source: Dir<Apparent> =
+                Dir::from_azimuth_altitude(source.azimuth, source.view.source_elevation);
+            direction(to_source, source.azimuth.rad())
+        };
+        let shines = |source: &SourceSky| if source.view.haze.is_empty() { 1 } else { 2 };
         SkyUniform {
-            source_azimuth: sources.map(|s| s.as_ref().map_or(0.0, |s| s.azimuth.rad() as f32)),
-            source_shines: sources.map(|s| u32::from(s.is_some())),
-            azimuths: SKY_AZIMUTHS as u32,
-            altitudes: SKY_ALTITUDES as u32,
-            half_pixel: (camera.pixel_angle().rad() / 2.0) as f32,
-            padding: 0.0,
-            ground: sky.ground.to_f32(),
+            sources: sources.map(|s| s.as_ref().map_or([0.0; 4], dir)),
+            shines: sources.map(|s| s.as_ref().map_or(0, shines)),
+            azimuths: SKY_SHAPE.azimuths as u32,
+            above: SKY_SHAPE.above as u32,
+            below: SKY_SHAPE.below as u32,
+            phases: PHASE_VALUES as u32,
+            horizon: sky.horizon.rad() as f32,
+            half_pixel: (pixel_rad / 2.0) as f32,
         }
     }
+}
+
+/// A direction and a number that goes with it.
+pub fn direction<F>(dir: Dir<F>, with: f64) -> [f32; 4] {
+    let v = dir.vector();
+    [v.x as f32, v.y as f32, v.z as f32, with as f32]
 }
 
 impl DiscUniform {

@@ -13,6 +13,7 @@ use super::lanes::{LANES, Lanes};
 use super::path::Path;
 use super::profile::{Optics, Profile, SCATTERERS, SPECIES, SPECIES_OF_SCATTERER, TOP_KM};
 use super::source::{Beams, SourceRow, SourceTable};
+use crate::air::Atmosphere;
 use crate::air::EARTH_RADIUS_KM;
 use crate::units::Angle;
 
@@ -29,6 +30,15 @@ pub(crate) struct Geometry {
 impl Geometry {
     pub fn ground_radius_km(&self) -> f64 {
         EARTH_RADIUS_KM + self.ground_km
+    }
+    /// Of the air around an observer of a height above sea level, metres.
+    pub fn of(air: &Atmosphere, height_m: f64) -> Geometry {
+        let by_density = if air.paths.refracted { super::SEA_LEVEL_REFRACTIVITY } else { 0.0 };
+        Geometry {
+            profile: Profile::new(air),
+            ground_km: air.ground_km(height_m),
+            refractivity: by_density * air.density_ratio_at(height_m),
+        }
     }
     /// Apparent elevation of the horizon from a height.
     pub fn horizon(&self, height_km: f64) -> Angle {
