@@ -71,7 +71,7 @@ fn main() -> Outcome<()> {
     let mut scene = studio.all_sky(evening(minute));
     scene.camera = SceneCamera {
         azimuth_deg: 110.0,
-        altitude_deg: 15.0,
+        altitude_deg: 0.0,
         roll_deg: 0.0,
         field_of_view_deg: 150.0,
         projection: Projection::Equirectangular,
