@@ -19,6 +19,10 @@ use crate::units::Angle;
 
 /// Zenith distances of the table.
 const NODES: usize = 128;
+/// How the nodes crowd towards the dark, in cosines: at the ground, high up, and half way at a height.
+const BEND_LOW: f64 = 0.03;
+const BEND_HIGH: f64 = 0.02;
+const BEND_KM: f64 = 3.0;
 /// Chords that the disc of the source is cut in.
 const CHORDS: usize = 8;
 /// Linear law of limb darkening: radiance falls by this part from the centre of the disc to its limb.
@@ -43,8 +47,28 @@ pub(crate) struct SourceRow {
     weight: f32,
     /// Cosine of the zenith distance at which the whole source has set.
     mu_dark: f64,
-    /// Squared places in the table for a step of the cosine.
-    per_mu: f32,
+    scale: Scale,
+}
+
+/// Where in a row of the table a source stands that is `light` above the dark, in cosines:
+/// `light / (light + bend)` in units of its value at the zenith.
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    bend: f32,
+    places: f32,
+}
+
+impl Scale {
+    fn new(height_above_ground_km: f64, mu_dark: f64) -> Scale {
+        // The air near a level ray is as high as that ray is far: from far off it looks thin.
+        let bend = BEND_HIGH + (BEND_LOW - BEND_HIGH) / (1.0 + height_above_ground_km / BEND_KM);
+        let places = (NODES - 1) as f64 * (1.0 - mu_dark + bend) / (1.0 - mu_dark);
+        Scale { bend: bend as f32, places: places as f32 }
+    }
+    fn light(self, node: usize) -> f64 {
+        let part = node as f64 / f64::from(self.places);
+        f64::from(self.bend) * part / (1.0 - part)
+    }
 }
 
 impl SourceTable {
@@ -52,6 +76,7 @@ impl SourceTable {
     pub fn new(beams: &Beams, optics: &Optics) -> SourceTable {
         let disc = Disc::new(beams.disc_radius());
         let shadow = beams.shadow().clone();
+        let ground_km = beams.heights_km()[0];
         let roots = beams
             .heights_km()
             .par_iter()
@@ -61,9 +86,9 @@ impl SourceTable {
                 let edge = shadow.edge(height_km);
                 let mu_dark = edge.cos_below(disc.radius);
                 let disc = &disc;
+                let scale = Scale::new(height_km - ground_km, mu_dark);
                 (0..NODES).map(move |i| {
-                    let w = i as f64 / (NODES - 1) as f64;
-                    let mu = mu_dark + (1.0 - mu_dark) * w * w;
+                    let mu = mu_dark + scale.light(i);
                     disc.irradiance(&source, mu.min(1.0).acos()).map(|f| f.sqrt().sqrt())
                 })
             })
@@ -79,7 +104,7 @@ impl SourceTable {
             index: edge.level * NODES,
             weight: edge.weight as f32,
             mu_dark,
-            per_mu: (((NODES - 1) * (NODES - 1)) as f64 / (1.0 - mu_dark)) as f32,
+            scale: Scale::new(edge.height_km - self.shadow.ground_km(), mu_dark),
         }
     }
 
@@ -93,8 +118,8 @@ impl SourceTable {
         if light <= 0.0 {
             return Lanes::ZERO;
         }
-        let place = (light * row.per_mu).sqrt();
-        let i = (place as usize).min(NODES - 2);
+        let place = light / (light + row.scale.bend) * row.scale.places;
+        let i = (place as i32 as usize).min(NODES - 2);
         let weight = place - i as f32;
         let low = &self.roots[row.index + i..][..2];
         let high = &self.roots[row.index + NODES + i..][..2];

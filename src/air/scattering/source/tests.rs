@@ -33,9 +33,9 @@ fn explore() {
             let row = table.row(h);
             let oracle = Oracle::new(&fine, &optics, h);
             let mut worst = [(0.0f64, 0.0, 0.0); 3];
-            for i in 0..2000 {
+            for i in 0..1000 {
                 let mu = (oracle.edge + radius.rad()).cos()
-                    + (i as f64 / 2000.0).powi(2) * (1.0 - (oracle.edge + radius.rad()).cos());
+                    + (i as f64 / 1000.0).powi(3) * (1.0 - (oracle.edge + radius.rad()).cos());
                 let want = oracle.irradiance(mu.acos(), radius.rad());
                 let got = table.irradiance(&row, mu);
                 for lane in 0..8 {
@@ -86,42 +86,72 @@ fn explore() {
     }
 }
 
-/// Rays followed one by one.
+/// Rays followed to one height, many.
 struct Oracle<'a> {
-    shells: &'a shells::Shells,
     optics: &'a Optics,
-    h: f64,
-    lowest: f64,
+    beams: Vec<shells::Beam>,
     edge: f64,
 }
 impl<'a> Oracle<'a> {
-    fn new(beams: &'a Beams, optics: &'a Optics, h: f64) -> Self {
+    fn new(beams: &Beams, optics: &'a Optics, h: f64) -> Self {
         let shells = beams.shells();
         let x = shells.level_at(h).x_km;
         let g = shells.ground().x_km;
         let lowest = g.atan2(-((x - g) * (x + g)).max(0.0).sqrt());
-        Oracle { shells, optics, h, lowest, edge: shells.beam_at(h, lowest).true_zenith }
+        let beams: Vec<_> = (0..=4000)
+            .rev()
+            .map(|i| shells.beam_at(h, lowest * (1.0 - (i as f64 / 4000.0).powi(2))))
+            .collect();
+        Oracle { optics, edge: beams[4000].true_zenith, beams }
     }
     fn point(&self, tt: f64) -> [f64; 8] {
         if tt > self.edge {
             return [0.0; 8];
         }
-        let (mut a, mut b) = (0.0, self.lowest);
-        for _ in 0..45 {
-            let m = 0.5 * (a + b);
-            if self.shells.beam_at(self.h, m).true_zenith > tt { b = m } else { a = m }
-        }
-        let beam = self.shells.beam_at(self.h, 0.5 * (a + b));
+        let i = self.beams.partition_point(|b| b.true_zenith < tt).clamp(1, 4000);
+        let (a, b) = (&self.beams[i - 1], &self.beams[i]);
+        let t = (tt - a.true_zenith) / (b.true_zenith - a.true_zenith);
         std::array::from_fn(|i| {
-            let tau: f64 =
-                (0..SPECIES).map(|k| beam.columns[k] * self.optics.extinction[k][i]).sum();
-            (-tau).exp() * beam.divergence
+            let ln = |b: &shells::Beam| {
+                b.divergence.ln()
+                    - (0..SPECIES).map(|k| b.columns[k] * self.optics.extinction[k][i]).sum::<f64>()
+            };
+            (ln(a) + (ln(b) - ln(a)) * t).exp()
         })
     }
     fn irradiance(&self, tt: f64, radius: f64) -> [f64; 8] {
         if radius == 0.0 {
             return self.point(tt);
         }
-        self.point(tt)
+        let (mut sum, mut all) = ([0.0; 8], 0.0);
+        for i in 0..200 {
+            let x = (i as f64 + 0.5) / 100.0 - 1.0;
+            let c = (1.0 - x * x).sqrt();
+            let w = 2.0 * 0.4 * c + 0.6 * PI / 2.0 * c * c;
+            all += w;
+            let f = self.point((tt + radius * x).abs());
+            for i in 0..8 {
+                sum[i] += w * f[i];
+            }
+        }
+        sum.map(|s| s / all)
+    }
+}
+
+#[test]
+fn explore_divergence() {
+    let profile = Profile::new(&Atmosphere::default());
+    let shells: Vec<_> =
+        [1, 2, 4, 8].map(|f| shells::Shells::new(&profile, 0.0, REFRACTIVITY, f)).into();
+    for i in 0..200 {
+        let z = 0.02 + 0.2 * i as f64;
+        print!("{z:.2}");
+        for s in &shells {
+            let p = s.level_at(z).x_km;
+            let x = s.level_at(98.0).x_km;
+            let b = s.beam_at(98.0, p.atan2(-((x - p) * (x + p)).sqrt()));
+            print!(" {:.5} {:.5}", b.divergence, b.true_zenith.to_degrees());
+        }
+        println!();
     }
 }
