@@ -43,7 +43,6 @@ pub(super) struct Shadow {
 /// A height between two levels, and the edge of the shadow there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edge {
-    pub height_km: f64,
     /// The level below.
     pub level: usize,
     /// The part of the way to the level above, by the distance to the horizon.
@@ -69,10 +68,6 @@ impl Shadow {
         }
     }
 
-    pub fn ground_km(&self) -> f64 {
-        self.heights_km[0]
-    }
-
     pub fn edge(&self, height_km: f64) -> Edge {
         let last = self.heights_km.len() - 1;
         let height_km = height_km.clamp(self.heights_km[0], self.heights_km[last]);
@@ -84,7 +79,6 @@ impl Shadow {
         let u_km = leg_km(x_km, self.x_km[0]);
         let weight = (u_km - self.u_km[level]) / (self.u_km[level + 1] - self.u_km[level]);
         Edge {
-            height_km,
             level,
             weight,
             apparent_cos: -u_km / x_km,

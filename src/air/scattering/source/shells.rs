@@ -364,6 +364,9 @@ impl Refractivity {
         let below = beyond(controls[0], controls[1], controls[2]);
         controls.push(above);
         controls.insert(0, below);
+        // A curve is blurred off its nodes; at sea level it is put back.
+        let off = (below - 2.0 * controls[1] + controls[2]) / 6.0;
+        controls.iter_mut().for_each(|c| *c -= off);
         Refractivity { controls }
     }
 
