@@ -1,6 +1,26 @@
-//! Light of a distant source on its bent way to every point of the air.
+//! Light of a distant source on its bent way to every point of the air, as a table.
 //!
-//! A placeholder head.
+//! *What.* The irradiance on a plane that faces the source, per unit irradiance outside: what the air
+//! lets through ([`shells`]), what bending adds or takes by spreading the beam, and what part of the disc
+//! the ground leaves. The true zenith distance, as if there were no air, says where the source stands.
+//!
+//! *Disc.* The mean of what a point of the source sends over level chords of its disc, each weighted
+//! with its length and its mean radiance by a linear law of limb darkening; those below the edge of the
+//! shadow send nothing. The disc is a single one for all wavelengths: the Sun's law of 550 nm.
+//!
+//! *Table.* Rows by height, at the levels of the shells. In a row, places are `v / (v + b)`, `v` the cosine
+//! above that of the last light: no angle is ever computed, nodes crowd to the edge of the shadow, and
+//! between two heights the edge stays sharp. Fourth roots are stored: they bend four times less between
+//! nodes than what they stand for, and two products bring it back.
+//!
+//! *Cost.* 0.8 MB a band; a look-up reads four places.
+//!
+//! *Omitted.* The colour of refraction, the azimuth of the chords with a source near the zenith (where no
+//! disc matters), clouds and mountains on the horizon.
+//!
+//! *Accuracy*, eight bands from 385 to 665 nm, all heights, against rays followed one by one with four
+//! times finer shells and a disc of 200 chords: 0.6 % where the irradiance is above 1e-3, 0.4 % above
+//! 1e-2, 6e-6 absolute elsewhere. Of a point: 1.2 %, for the red light that grazes haze; mostly 0.1 %.
 
 mod beams;
 mod shells;
@@ -18,9 +38,11 @@ use super::profile::{Optics, SPECIES};
 use crate::units::Angle;
 
 /// Zenith distances of the table.
-const NODES: usize = 128;
+const NODES: usize = 160;
+/// How much the nodes crowd towards the dark, in cosines.
+const BEND: f64 = 0.03;
 /// Chords that the disc of the source is cut in.
-const CHORDS: usize = 8;
+const CHORDS: usize = 12;
 /// Linear law of limb darkening: radiance falls by this part from the centre of the disc to its limb.
 const LIMB_DARKENING: f64 = 0.6;
 /// Farther from the edge of the shadow a disc is as good as a point, radians.
@@ -43,8 +65,19 @@ pub(crate) struct SourceRow {
     weight: f32,
     /// Cosine of the zenith distance at which the whole source has set.
     mu_dark: f64,
-    /// Squared places in the table for a step of the cosine.
-    per_mu: f32,
+    places_per_part: f32,
+}
+
+/// Where in a row of the table a source stands that is `light` above the dark, in cosines:
+/// `light / (light + BEND)`, in units of its value at the zenith.
+fn places_per_part(mu_dark: f64) -> f64 {
+    (NODES - 1) as f64 * (1.0 - mu_dark + BEND) / (1.0 - mu_dark)
+}
+
+/// The cosine at a place of a row.
+fn mu_at(mu_dark: f64, node: usize) -> f64 {
+    let part = node as f64 / places_per_part(mu_dark);
+    mu_dark + BEND * part / (1.0 - part)
 }
 
 impl SourceTable {
@@ -62,8 +95,7 @@ impl SourceTable {
                 let mu_dark = edge.cos_below(disc.radius);
                 let disc = &disc;
                 (0..NODES).map(move |i| {
-                    let w = i as f64 / (NODES - 1) as f64;
-                    let mu = mu_dark + (1.0 - mu_dark) * w * w;
+                    let mu = mu_at(mu_dark, i);
                     disc.irradiance(&source, mu.min(1.0).acos()).map(|f| f.sqrt().sqrt())
                 })
             })
@@ -79,7 +111,7 @@ impl SourceTable {
             index: edge.level * NODES,
             weight: edge.weight as f32,
             mu_dark,
-            per_mu: (((NODES - 1) * (NODES - 1)) as f64 / (1.0 - mu_dark)) as f32,
+            places_per_part: places_per_part(mu_dark) as f32,
         }
     }
 
@@ -93,8 +125,8 @@ impl SourceTable {
         if light <= 0.0 {
             return Lanes::ZERO;
         }
-        let place = (light * row.per_mu).sqrt();
-        let i = (place as usize).min(NODES - 2);
+        let place = light / (light + BEND as f32) * row.places_per_part;
+        let i = (place as i32 as usize).min(NODES - 2);
         let weight = place - i as f32;
         let low = &self.roots[row.index + i..][..2];
         let high = &self.roots[row.index + NODES + i..][..2];
@@ -116,16 +148,13 @@ impl PointSource<'_> {
         self.nodes.last().map_or(0.0, |n| n.true_zenith)
     }
 
-    /// Irradiance on a plane facing it, at a true zenith distance not past the edge.
-    fn irradiance(&self, true_zenith: f64) -> Lanes {
-        let nodes = self.nodes;
-        if nodes.len() < 4 {
-            return Lanes::ZERO;
-        }
-        let after = nodes.partition_point(|n| n.true_zenith < true_zenith);
-        let first = after.clamp(2, nodes.len() - 2) - 2;
-        let near = &nodes[first..first + 4];
+    /// Columns and the logarithm of the divergence, at a true zenith distance: the cubic through
+    /// the four rays next to it.
+    fn values(&self, true_zenith: f64) -> [f64; SPECIES + 1] {
         let mut values = [0.0; SPECIES + 1];
+        let after = self.nodes.partition_point(|n| n.true_zenith < true_zenith);
+        let first = after.clamp(2, self.nodes.len().max(4) - 2) - 2;
+        let near = &self.nodes[first..self.nodes.len().min(first + 4)];
         for (i, node) in near.iter().enumerate() {
             let mut weight = 1.0;
             for (j, other) in near.iter().enumerate() {
@@ -138,6 +167,12 @@ impl PointSource<'_> {
                 *sum += weight * value;
             }
         }
+        values
+    }
+
+    /// Irradiance on a plane facing it, at a true zenith distance not past the edge.
+    fn irradiance(&self, true_zenith: f64) -> Lanes {
+        let values = self.values(true_zenith);
         let columns = std::array::from_fn(|k| values[k] as f32);
         (Lanes::splat(values[SPECIES] as f32) - self.optics.optical_depth(columns)).exp()
     }

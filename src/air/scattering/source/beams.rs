@@ -45,7 +45,7 @@ pub(super) struct Shadow {
 pub(super) struct Edge {
     /// The level below.
     pub level: usize,
-    /// The part of the way to the level above.
+    /// The part of the way to the level above, by the distance to the horizon.
     pub weight: f64,
     /// Zenith distances from which the edge is seen, and less of which it truly lies, radians.
     pub apparent_cos: f64,
@@ -74,17 +74,16 @@ impl Shadow {
         let level = self.heights_km.partition_point(|&h| h <= height_km).clamp(1, last) - 1;
         let between = |of: &[f64], weight: f64| of[level] + (of[level + 1] - of[level]) * weight;
         let gap_km = self.heights_km[level + 1] - self.heights_km[level];
-        let weight = (height_km - self.heights_km[level]) / gap_km;
-        let x_km = between(&self.x_km, weight);
-        // The turn grows with the distance to the horizon, not with the height.
+        let x_km = between(&self.x_km, (height_km - self.heights_km[level]) / gap_km);
+        // Everything here changes with the distance to the horizon, not with the height.
         let u_km = leg_km(x_km, self.x_km[0]);
-        let along = (u_km - self.u_km[level]) / (self.u_km[level + 1] - self.u_km[level]);
+        let weight = (u_km - self.u_km[level]) / (self.u_km[level + 1] - self.u_km[level]);
         Edge {
             level,
             weight,
             apparent_cos: -u_km / x_km,
             apparent_sin: self.x_km[0] / x_km,
-            turn: between(&self.turns, along),
+            turn: between(&self.turns, weight),
         }
     }
 }

@@ -19,9 +19,10 @@
 //! changed by `n^2 (sin a / sin t) (da/dt)`. But for `n^2`, 1.0006 at most, this is the dilution of
 //! refracted light known from occultations and lunar eclipses.
 //!
-//! *Index of refraction.* Proportional to the density of molecules. The piecewise linear density of the
-//! profile would focus light at each of its nodes, since the bending asks for its slope; the index
-//! follows a cubic spline through the logarithms of the same nodes.
+//! *Index of refraction.* Proportional to the density of molecules, but smooth. Spreading asks for its
+//! second derivative: each node of the profile would focus light, and so would the sharp tropopause of
+//! the standard atmosphere, which in real air lies at many heights along one ray. The index is that
+//! of the profile, blurred in its logarithm by a bell of 1.2 km (standard deviation).
 //!
 //! *Omitted.* Dispersion (2 % of the bending from 450 to 650 nm), water vapour.
 //!
@@ -331,65 +332,55 @@ fn heights_km(profile: &Profile, ground_km: f64, fineness: usize) -> Vec<f64> {
     heights
 }
 
-/// Index of refraction less one, and its slope: a cubic spline of the logarithm of the density.
+/// Index of refraction less one, and its slope: a uniform cubic B-spline whose control points are
+/// logarithms of the density.
 struct Refractivity {
-    heights_km: Vec<f64>,
-    logarithms: Vec<f64>,
-    /// Second derivatives at the nodes.
-    curvatures: Vec<f64>,
+    /// The first lies one step below sea level.
+    controls: Vec<f64>,
 }
+
+/// Step of the control points, km.
+const SPLINE_STEP_KM: f64 = 2.0;
 
 impl Refractivity {
     fn new(profile: &Profile, at_sea_level: f64) -> Refractivity {
-        let heights_km = profile.heights_km().to_vec();
-        let molecules = profile.densities().iter().map(|d| d[0]);
-        let logarithms: Vec<f64> =
-            molecules.map(|d| (d * at_sea_level).max(f64::MIN_POSITIVE).ln()).collect();
-        // Continuous second derivatives; in the outermost pieces they are constant.
-        let n = heights_km.len();
-        let gap = |i: usize| heights_km[i + 1] - heights_km[i];
-        let secant = |i: usize| (logarithms[i + 1] - logarithms[i]) / gap(i);
-        let mut curvatures = vec![0.0; n];
-        if n > 2 {
-            // Thomas's algorithm for the inner nodes.
-            let mut upper = vec![0.0; n];
-            for i in 1..n - 1 {
-                let (mut left, mut right) = (gap(i - 1), gap(i));
-                let mut diagonal = 2.0 * (left + right);
-                if i == 1 {
-                    diagonal += left;
-                    left = 0.0;
-                }
-                if i == n - 2 {
-                    diagonal += right;
-                    right = 0.0;
-                }
-                let pivot = diagonal - left * upper[i - 1];
-                upper[i] = right / pivot;
-                curvatures[i] =
-                    (6.0 * (secant(i) - secant(i - 1)) - left * curvatures[i - 1]) / pivot;
-            }
-            for i in (1..n - 2).rev() {
-                curvatures[i] -= upper[i] * curvatures[i + 1];
-            }
-            curvatures[0] = curvatures[1];
-            curvatures[n - 1] = curvatures[n - 2];
-        }
-        Refractivity { heights_km, logarithms, curvatures }
+        let last = (TOP_KM / SPLINE_STEP_KM).ceil() as usize;
+        // Densities are interpolated in their logarithms too.
+        let logarithm = |i: usize| {
+            let height_km = SPLINE_STEP_KM * i as f64;
+            let at = profile.layer(height_km);
+            let ends = [at, at + 1].map(|k| {
+                let density = profile.densities()[k][0] * at_sea_level;
+                (profile.heights_km()[k], density.max(f64::MIN_POSITIVE).ln())
+            });
+            let ((low_km, low), (high_km, high)) = (ends[0], ends[1]);
+            low + (high - low) * (height_km - low_km) / (high_km - low_km)
+        };
+        let mut controls: Vec<f64> = (0..=last).map(logarithm).collect();
+        // Ends: the curvature next to them goes on.
+        let beyond = |a: f64, b: f64, c: f64| 3.0 * (a - b) + c;
+        let n = controls.len();
+        let above = beyond(controls[n - 1], controls[n - 2], controls[n - 3]);
+        let below = beyond(controls[0], controls[1], controls[2]);
+        controls.push(above);
+        controls.insert(0, below);
+        // A curve is blurred off its nodes; at sea level it is put back.
+        let off = (below - 2.0 * controls[1] + controls[2]) / 6.0;
+        controls.iter_mut().for_each(|c| *c -= off);
+        Refractivity { controls }
     }
 
     /// Refractivity and its slope per km.
     fn at(&self, height_km: f64) -> (f64, f64) {
-        let above = self.heights_km.partition_point(|&h| h <= height_km);
-        let i = above.clamp(1, self.heights_km.len() - 1) - 1;
-        let gap = self.heights_km[i + 1] - self.heights_km[i];
-        let t = (height_km - self.heights_km[i]) / gap;
+        let place = height_km / SPLINE_STEP_KM;
+        let i = (place.max(0.0) as usize).min(self.controls.len() - 4);
+        let t = place - i as f64;
         let s = 1.0 - t;
-        let (a, b) = (self.logarithms[i], self.logarithms[i + 1]);
-        let (c, d) = (self.curvatures[i], self.curvatures[i + 1]);
-        let logarithm =
-            s * a + t * b + ((s * s * s - s) * c + (t * t * t - t) * d) * gap * gap / 6.0;
-        let slope = (b - a) / gap + ((1.0 - 3.0 * s * s) * c + (3.0 * t * t - 1.0) * d) * gap / 6.0;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.controls[i + k]);
+        let middle = |t: f64| 4.0 + t * t * (3.0 * t - 6.0);
+        let logarithm = (s * s * s * a + middle(t) * b + middle(s) * c + t * t * t * d) / 6.0;
+        let slope = |t: f64| t * (3.0 * t - 4.0);
+        let slope = (-s * s * a + slope(t) * b - slope(s) * c + t * t * d) / (2.0 * SPLINE_STEP_KM);
         let value = logarithm.exp();
         (value, value * slope)
     }
