@@ -19,6 +19,7 @@
 
 mod columns;
 mod field;
+mod ground;
 mod harmonics;
 mod lanes;
 mod path;
@@ -37,6 +38,7 @@ use crate::background::Interrupt;
 use crate::store::{Key, Store};
 use crate::units::Angle;
 use field::Field;
+use ground::DirectOnGround;
 use lanes::{LANES, Lanes};
 pub use profile::{EARTH_RADIUS_KM, TOP_KM};
 use profile::{Optics, WAVELENGTH_RANGE_NM};
@@ -46,7 +48,7 @@ pub use reconstruction::{Matrix, SKY_NODES_NM, SUMS, SpectralSums, reconstructio
 pub use sky_view::{PHASE_VALUES, Phase, SkyRays, SkyShape, SkyView, turn};
 pub use solve::Directions;
 use source::{Beams, SourceTable};
-use view::{FirstOrder, add_higher_orders, direct_on_ground, first_order};
+use view::{FirstOrder, add_higher_orders, first_order};
 
 /// Apparent elevation of the horizon that an eye sees, without solving for any light: the eye and the
 /// observer, at whom the pressure of the air is given, by height above sea level.
@@ -223,6 +225,7 @@ impl Resolution {
 struct Band {
     optics: Optics,
     source: SourceTable,
+    on_ground: DirectOnGround,
     field: Field,
 }
 
@@ -318,6 +321,7 @@ impl ScatteringTables {
         for chunk in wavelengths_nm.chunks(LANES) {
             let optics = Optics::new(air, density_ratio, chunk);
             let source = SourceTable::new(&beams, &optics);
+            let on_ground = DirectOnGround::new(&beams, &source, ground_km);
             let mut field = Field::new(resolution.degree, ground_km, resolution.altitudes);
             let key = Key::of(&[
                 VERSION.as_bytes(),
@@ -335,8 +339,8 @@ impl ScatteringTables {
                 let medium = Medium {
                     geometry: &straight,
                     optics: &optics,
-                    beams: &beams,
                     source: &source,
+                    on_ground: &on_ground,
                     altitudes_km: &altitudes_km,
                     degree: resolution.degree,
                 };
@@ -347,7 +351,7 @@ impl ScatteringTables {
                 let block: Vec<u8> = field.solved().flat_map(f32::to_le_bytes).collect();
                 store.put(&key, &block);
             }
-            bands.push(Band { optics, source, field });
+            bands.push(Band { optics, source, on_ground, field });
         }
         Ok(Some(ScatteringTables {
             wavelengths_nm: wavelengths_nm.to_vec(),
@@ -379,8 +383,8 @@ impl ScatteringTables {
         Medium {
             geometry: &self.geometry,
             optics: &band.optics,
-            beams: &self.beams,
             source: &band.source,
+            on_ground: &band.on_ground,
             altitudes_km: &band.field.altitudes_km,
             degree: band.field.degree,
         }
@@ -474,7 +478,7 @@ impl ScatteringTables {
             lanes.map(f64::from).take(n).collect()
         };
         let diffuse = all(&|band| band.field.ground_irradiance(cosine));
-        let direct = all(&|band| direct_on_ground(&self.medium(band), cosine));
+        let direct = all(&|band| band.on_ground.at(cosine));
         (diffuse, direct)
     }
 }

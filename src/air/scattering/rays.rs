@@ -8,11 +8,12 @@
 //! The rays that an observer sees are bent where the air is to bend light; those along which the
 //! field is solved are straight, which changes where its light comes from by less than a step.
 
+use super::ground::DirectOnGround;
 use super::harmonics::{MAX_COEFFICIENTS, MAX_DEGREE, zonal_part};
 use super::lanes::{LANES, Lanes};
 use super::path::Path;
 use super::profile::{Optics, Profile, SCATTERERS, SPECIES, SPECIES_OF_SCATTERER, TOP_KM};
-use super::source::{Beams, SourceRow, SourceTable};
+use super::source::{SourceRow, SourceTable};
 use crate::air::Atmosphere;
 use crate::air::EARTH_RADIUS_KM;
 use crate::units::Angle;
@@ -141,8 +142,8 @@ pub(crate) struct Ray {
 pub(crate) struct Medium<'a> {
     pub geometry: &'a Geometry,
     pub optics: &'a Optics,
-    pub beams: &'a Beams,
     pub source: &'a SourceTable,
+    pub on_ground: &'a DirectOnGround,
     pub altitudes_km: &'a [f64],
     pub degree: usize,
 }
@@ -355,6 +356,7 @@ mod tests {
     use super::*;
     use crate::air::Atmosphere;
     use crate::air::scattering::columns;
+    use crate::air::scattering::source::Beams;
 
     const RULE: RaySteps = RaySteps { levels: 30, longest_km: 40.0, longest_in_aerosol_km: 5.0 };
 
@@ -363,12 +365,13 @@ mod tests {
         let optics = Optics::new(air, 1.0, &[450.0, 550.0]);
         let beams = Beams::new(&geometry.profile, 0.0, refractivity, Angle::ZERO);
         let source = SourceTable::new(&beams, &optics);
+        let on_ground = DirectOnGround::new(&beams, &source, 0.0);
         let altitudes_km = [0.0, 10.0, 50.0, TOP_KM];
         test(&Medium {
             geometry: &geometry,
             optics: &optics,
-            beams: &beams,
             source: &source,
+            on_ground: &on_ground,
             altitudes_km: &altitudes_km,
             degree: 2,
         });

@@ -21,14 +21,6 @@ pub(crate) struct FirstOrder {
     pub haze: Lanes,
 }
 
-/// Irradiance of level ground by the source itself, per unit irradiance outside the air.
-pub(crate) fn direct_on_ground(medium: &Medium, mu_s: f64) -> Lanes {
-    let ground_km = medium.geometry.ground_km;
-    let raised = medium.beams.refraction(ground_km, mu_s);
-    let sine = mu_s * raised.cos() + (1.0 - mu_s * mu_s).max(0.0).sqrt() * raised.sin();
-    medium.source.irradiance(&medium.source.row(ground_km), mu_s) * sine.max(0.0) as f32
-}
-
 /// Light of each source scattered once, or reflected once by the ground, per unit irradiance.
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn first_order(medium: &Medium, ray: &Ray, sources: &[Source]) -> Vec<FirstOrder> {
@@ -50,7 +42,7 @@ fn first_order_of(medium: &Medium, ray: &Ray, source: &Source) -> FirstOrder {
     if let Some(turn) = ray.end.ground {
         let mu_s = source.local_cosine(turn);
         let reflected = (medium.optics.ground_albedo / PI) as f32;
-        smooth += ray.end.transmittance * direct_on_ground(medium, mu_s) * reflected;
+        smooth += ray.end.transmittance * medium.on_ground.at(mu_s) * reflected;
     }
     FirstOrder { smooth, haze }
 }

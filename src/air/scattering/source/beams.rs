@@ -150,7 +150,7 @@ impl Beams {
     pub(super) fn shadow(&self) -> &Shadow {
         &self.shadow
     }
-    pub(super) fn disc_radius(&self) -> Angle {
+    pub fn disc_radius(&self) -> Angle {
         self.disc_radius
     }
     /// Heights of the levels, km.
