@@ -5,6 +5,7 @@
 //! machine lacks.
 
 mod cli {
+    pub mod airs;
     pub mod catalogs;
     pub mod harness;
     pub mod nonsense;
@@ -24,6 +25,7 @@ fn main() {
         eprint!("tests that draw are ignored: {}", nocturne(["adapter"]).run().stderr);
     }
     let trials = [
+        cli::airs::trials(),
         cli::nonsense::trials(),
         cli::outputs::trials(&machine),
         cli::catalogs::trials(&machine),
