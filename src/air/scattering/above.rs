@@ -22,6 +22,8 @@
 //!
 //! The phase functions of aerosols are cut at the degree of [`DiffuseQuality`].
 
+use std::sync::Arc;
+
 mod legendre;
 mod operator;
 mod path;
@@ -61,15 +63,25 @@ pub struct DiffuseQuality {
 }
 
 impl DiffuseQuality {
-    /// For skies of any shape.
+    /// For skies of any shape: 0.3 % in clear air, 1 % in thick haze.
     pub const RENDER: DiffuseQuality = DiffuseQuality {
         degree: 12,
-        order: 8,
-        altitudes: 28,
+        order: SkyHarmonics::DEGREE,
+        altitudes: 40,
         above: 16,
         below: 12,
         steps: RaySteps { levels: 40, longest_km: 30.0, longest_in_aerosol_km: 10.0 },
         view: RaySteps { levels: 60, longest_km: 20.0, longest_in_aerosol_km: 3.0 },
+    };
+    /// For skies that are the same in every azimuth, in a hurry: 0.5 % in clear air, 2 % in thick
+    /// haze.
+    pub const AXIAL: DiffuseQuality = DiffuseQuality {
+        order: 0,
+        altitudes: 28,
+        above: 10,
+        below: 8,
+        steps: RaySteps { levels: 24, longest_km: 40.0, longest_in_aerosol_km: 20.0 },
+        ..DiffuseQuality::RENDER
     };
 }
 
@@ -112,9 +124,14 @@ struct Band {
     operators: Operators,
 }
 
-/// What the air makes of light from above, at a set of wavelengths.
+/// What the air makes of light from above, at a set of wavelengths. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct DiffuseTables {
+    solved: Arc<Solved>,
+}
+
+#[derive(Debug)]
+struct Solved {
     wavelengths_nm: Vec<f64>,
     geometry: Geometry,
     view: RaySteps,
@@ -153,33 +170,31 @@ impl DiffuseTables {
                 Band { optics, operators }
             })
             .collect();
-        Ok(DiffuseTables {
-            wavelengths_nm: wavelengths_nm.to_vec(),
-            geometry,
-            view: quality.view,
-            bands,
-        })
+        let wavelengths_nm = wavelengths_nm.to_vec();
+        let solved = Solved { wavelengths_nm, geometry, view: quality.view, bands };
+        Ok(DiffuseTables { solved: Arc::new(solved) })
     }
 
     /// The wavelengths solved for, nm, in the order of all results.
     pub fn wavelengths_nm(&self) -> &[f64] {
-        &self.wavelengths_nm
+        &self.solved.wavelengths_nm
     }
 
     /// The field of a light that is the same in every azimuth, given by the radiance that comes from
     /// outside along a line, by a height (km) on it and the cosine of its zenith distance there.
-    pub fn lit_from(&self, light: impl Fn(f64, f64) -> f64 + Sync) -> DiffuseField<'_> {
+    pub fn lit_from(&self, light: impl Fn(f64, f64) -> f64 + Sync) -> DiffuseField {
         let bands = self
+            .solved
             .bands
             .iter()
             .map(|band| vec![OrderField { cos: band.operators.solve(0, &light), sin: None }]);
-        DiffuseField { tables: self, bands: bands.collect() }
+        DiffuseField { bands: bands.collect(), air: self.solved.clone() }
     }
 
     /// The field of a distant sky. What it holds above the order of [`DiffuseQuality`] is left out.
-    pub fn lit_by(&self, sky: &SkyHarmonics) -> DiffuseField<'_> {
+    pub fn lit_by(&self, sky: &SkyHarmonics) -> DiffuseField {
         use rayon::prelude::*;
-        let bands = self.bands.iter().map(|band| {
+        let bands = self.solved.bands.iter().map(|band| {
             let orders = band.operators.orders.len().min(sky.order() + 1);
             let field = |m: usize| {
                 let legendre = legendre::Legendre::new(m, SkyHarmonics::DEGREE);
@@ -194,18 +209,20 @@ impl DiffuseTables {
             };
             (0..orders).into_par_iter().map(field).collect()
         });
-        DiffuseField { tables: self, bands: bands.collect() }
+        DiffuseField { bands: bands.collect(), air: self.solved.clone() }
     }
 
     /// What part of the light outside arrives unscattered, each wavelength; 0 if the ground is in
     /// the way.
     pub fn transmittance(&self, height_km: f64, view_elevation: Angle, out: &mut [f64]) {
-        for (band, out) in self.bands.iter().zip(out.chunks_mut(LANES)) {
-            let path = self.path(band, height_km, view_elevation);
+        for (band, out) in self.solved.bands.iter().zip(out.chunks_mut(LANES)) {
+            let path = self.solved.path(band, height_km, view_elevation);
             out.iter_mut().zip(path.from_space().0).for_each(|(out, t)| *out = f64::from(t));
         }
     }
+}
 
+impl Solved {
     fn path(&self, band: &Band, height_km: f64, view_elevation: Angle) -> Path {
         let nodes = &band.operators.nodes;
         let medium = medium(&self.geometry, &band.optics, &nodes.altitudes_km);
@@ -266,22 +283,22 @@ struct OrderField {
 
 /// The light of one sky, everywhere in the air.
 #[derive(Debug, Clone)]
-pub struct DiffuseField<'a> {
-    tables: &'a DiffuseTables,
+pub struct DiffuseField {
+    air: Arc<Solved>,
     /// Of each band, by order.
     bands: Vec<Vec<OrderField>>,
 }
 
-impl DiffuseField<'_> {
+impl DiffuseField {
     /// Radiance of the air and of the ground, each wavelength, in the unit of the sky. What comes
     /// straight from the sky is not in it: that is the sky times [`DiffuseTables::transmittance`].
     ///
     /// The height is clamped to that of the air; the azimuth is that of the harmonics.
     pub fn radiance(&self, height_km: f64, view_elevation: Angle, azimuth: Angle, out: &mut [f64]) {
         for ((band, orders), out) in
-            self.tables.bands.iter().zip(&self.bands).zip(out.chunks_mut(LANES))
+            self.air.bands.iter().zip(&self.bands).zip(out.chunks_mut(LANES))
         {
-            let path = self.tables.path(band, height_km, view_elevation);
+            let path = self.air.path(band, height_km, view_elevation);
             let nodes = &band.operators.nodes;
             let mut sum = Lanes::ZERO;
             for (m, (field, operator)) in orders.iter().zip(&band.operators.orders).enumerate() {
@@ -295,7 +312,7 @@ impl DiffuseField<'_> {
                     sum += weight * moment;
                 });
                 if let (true, Some(ground)) = (path.meets_ground, operator.layout.ground) {
-                    let medium = medium(&self.tables.geometry, &band.optics, &nodes.altitudes_km);
+                    let medium = medium(&self.air.geometry, &band.optics, &nodes.altitudes_km);
                     sum += path.transmittance * field.cos[ground] * reflectance(&medium);
                 }
             }
@@ -305,11 +322,11 @@ impl DiffuseField<'_> {
 
     /// Irradiance of level ground, straight from the sky and by way of the air, each wavelength.
     pub fn ground_irradiance(&self) -> Vec<f64> {
-        let ground = self.tables.bands.iter().zip(&self.bands).flat_map(|(band, orders)| {
+        let ground = self.air.bands.iter().zip(&self.bands).flat_map(|(band, orders)| {
             let layout = &band.operators.orders[0].layout;
             let irradiance = layout.ground.map_or(Lanes::ZERO, |ground| orders[0].cos[ground]);
             irradiance.0.map(f64::from)
         });
-        ground.take(self.tables.wavelengths_nm.len()).collect()
+        ground.take(self.air.wavelengths_nm.len()).collect()
     }
 }
