@@ -17,6 +17,7 @@
 //! aerosol 0.5 % and 1.8 %, 0.8 % and 2.3 %, 2 % and 12 %, the noise of the reference (to 8.5 %)
 //! included. Below 14 degrees only its own convergence is known: some per cent.
 
+pub mod above;
 mod columns;
 mod field;
 mod ground;

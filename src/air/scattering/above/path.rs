@@ -1,0 +1,46 @@
+//! What this folder asks of a ray: where it is sampled, what is scattered there, where it ends.
+
+use super::super::lanes::Lanes;
+use super::super::profile::SCATTERERS;
+use super::super::rays::{Bracket, Medium, Ray, RaySteps};
+
+/// A sample of a ray.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// Between which heights of the field it lies.
+    pub altitude: Bracket,
+    /// Cosine between the ray and the vertical there.
+    pub cos_view: f64,
+    /// Weight of light scattered by each scatterer.
+    pub weights: [Lanes; SCATTERERS],
+}
+
+/// A ray, cut.
+#[derive(Debug, Clone)]
+pub(super) struct Path {
+    pub samples: Vec<Sample>,
+    /// Transmittance to its end.
+    pub transmittance: Lanes,
+    pub meets_ground: bool,
+}
+
+impl Path {
+    pub fn cut(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Path {
+        let ray = Ray::cut(medium, rule, height_km, cos_zenith);
+        let samples = ray.steps.iter().map(|step| Sample {
+            altitude: step.altitude,
+            cos_view: step.cos_view,
+            weights: step.weights,
+        });
+        Path {
+            samples: samples.collect(),
+            transmittance: ray.transmittance,
+            meets_ground: ray.ground_km.is_some(),
+        }
+    }
+
+    /// What of the light outside arrives unscattered.
+    pub fn from_space(&self) -> Lanes {
+        if self.meets_ground { Lanes::ZERO } else { self.transmittance }
+    }
+}
