@@ -97,21 +97,22 @@ impl ClassicModel {
     pub const fn fails(self) -> &'static str {
         match self {
             ClassicModel::CieOvercast => {
-                "It is one even, thick cloud: it knows no Sun in it, no colour, no rain and no breaks, \
-                 and its level is a mean that days miss by a factor of two either way."
+                "It is one even, thick cloud: it knows no Sun in it, no colour and no breaks, and its \
+                 level is a mean, which single days miss widely."
             }
             ClassicModel::CieClear => {
-                "It has no colour, its zenith grows without bound as the Sun climbs past 60 degrees, its \
-                 aureole is finite and does not change with the haze, and a low Sun leaves it too bright."
+                "It has no colour, its zenith has no bound as the Sun climbs (it is held from 75 degrees \
+                 on), its aureole is the same in any haze, and with the Sun at 2 degrees it is half as \
+                 bright again as the solved sky."
             }
             ClassicModel::Perez => {
-                "It has no colour, its eight classes of weather join with jumps, it was fitted to one \
-                 site and to a Sun above 5 degrees or so, and 15 degrees around the Sun were not measured."
+                "It has no colour, its eight classes of weather join with jumps, its coefficients come \
+                 from the measurements of one site, and a negative luminance has to be cut off."
             }
             ClassicModel::Preetham => {
-                "It was fitted to turbidities from 2 to 6 and is wrong below: too bright by day, several \
-                 times too bright with the Sun on the horizon, its aureole dims the sky opposite, and \
-                 the ground lends it no light."
+                "It was fitted to turbidities from 2 to 6 and turns over below 1.7, it is twice as bright \
+                 as the solved sky by day and eight times with the Sun at 2 degrees, its aureole is weak, \
+                 and without ozone its zenith pales as the Sun sets."
             }
         }
     }

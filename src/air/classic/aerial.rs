@@ -11,8 +11,8 @@
 //! three colours; scattering per kilometre is that of the air at the ground, not a slider; haze that
 //! absorbs counts in `bM` and not in `bM(t)`.
 //!
-//! Where it fails: light of the sky and higher orders are left out, so that hazes and distances are too
-//! dark by a third to a half, black after sunset; and far hills do not take the colour of the sky at
+//! Where it fails: light of the sky and higher orders are left out, so that haze is too dark, and
+//! black after sunset; and far hills do not take the colour of the sky at
 //! the horizon but one of their own.
 
 use std::f64::consts::PI;

@@ -9,8 +9,8 @@
 //! directions of the chromaticity are as printed in the paper, not as in the course notes of 2003,
 //! where one gradation stands for all three.
 //!
-//! Where it fails: `ClassicModel::fails`, and in detail Zotti, Wilkie & Purgathofer 2007 and
-//! Bruneton 2017, who measured it to be too bright nearly everywhere.
+//! Where it fails: `ClassicModel::fails`, and, recalled, Zotti, Wilkie & Purgathofer 2007, *A Critical
+//! Review of the Preetham Skylight Model*.
 
 use std::f64::consts::PI;
 
