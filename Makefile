@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens pictures kernels pack peers clean
+.PHONY: sky test lint goldens pictures classic kernels pack peers clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
@@ -36,6 +36,10 @@ goldens: driver
 pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
+
+# Compares the classic sky models with ours: docs/classic_skies.md and its picture.
+classic:
+	cargo run --release --example 5_classic_skies --no-default-features --features cli
 
 # Fetches the ephemerides that the tables of motion are packed from: 120 MB and more.
 kernels:

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub mod aerosol;
+pub mod classic;
 pub mod cross_section;
 pub mod extinction;
 mod named;

@@ -4,6 +4,7 @@
 //! below the horizon is not in it, and a table whose source does not shine is empty.
 
 pub mod body;
+pub mod classic;
 pub mod disc;
 pub mod lay;
 pub mod ledger;
@@ -11,6 +12,7 @@ pub mod skylight;
 
 use thiserror::Error;
 
+use crate::air::classic::ClassicSkyError;
 use crate::air::scattering::{ScatteringError, SkyShape, SkyView};
 use crate::camera::Camera;
 use crate::catalog::CatalogError;
@@ -24,6 +26,8 @@ use disc::Disc;
 pub enum PlanError {
     #[error(transparent)]
     Air(#[from] ScatteringError),
+    #[error(transparent)]
+    Sky(#[from] ClassicSkyError),
     #[error(transparent)]
     Catalog(#[from] CatalogError),
 }

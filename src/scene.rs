@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::air::classic::{ClassicSky, ClassicSkyError};
 use crate::air::{AirError, Atmosphere};
 use crate::camera::{Camera, CameraError, Projection};
 use crate::eye::Eye;
@@ -39,6 +40,8 @@ pub enum SceneError {
     Camera(#[from] CameraError),
     #[error(transparent)]
     Air(#[from] AirError),
+    #[error(transparent)]
+    Sky(#[from] ClassicSkyError),
 }
 
 /// A picture, described.
@@ -56,6 +59,9 @@ pub struct Scene {
     pub camera: SceneCamera,
     #[serde(default)]
     pub layers: Layers,
+    /// A classic model of the sky in place of the air solved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sky: Option<ClassicSky>,
     #[serde(default)]
     pub air: Atmosphere,
     #[serde(default)]
@@ -150,6 +156,8 @@ pub struct Setting {
     pub camera: Camera,
     /// How far off a position may be.
     pub tolerance: Angle,
+    /// A classic model of the sky in place of the air solved.
+    pub sky: Option<ClassicSky>,
 }
 
 impl Scene {
@@ -198,12 +206,13 @@ impl Scene {
         }
         .checked()?;
         self.air.validate_at(at.height_m)?;
+        self.sky.as_ref().map_or(Ok(()), ClassicSky::validate)?;
         self.check_numbers()?;
         let tolerance = match self.tolerance_arcsec {
             Some(arcsec) => Angle::from_arcsec(arcsec),
             None => camera.pixel_angle() * TOLERANCE_IN_PIXELS,
         };
-        Ok(Setting { instant, place, camera, tolerance })
+        Ok(Setting { instant, place, camera, tolerance, sky: self.sky })
     }
 
     fn check_numbers(&self) -> Result<(), SceneError> {
@@ -227,6 +236,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::air::classic::ClassicModel;
 
     fn scene() -> Scene {
         Scene {
@@ -250,6 +260,7 @@ mod tests {
                 height_px: 360,
             },
             layers: Layers::default(),
+            sky: None,
             air: Atmosphere::default(),
             eye: Eye::default(),
             marks: Marks::default(),
@@ -261,6 +272,7 @@ mod tests {
         let mut scene = scene();
         scene.layers.magnitude_limit = Some(0.1 + 0.2);
         scene.eye.adaptation_cd_m2 = Some(1e-3);
+        scene.sky = Some(ClassicSky::new(ClassicModel::Preetham));
         assert_eq!(Scene::parse(&scene.to_toml()).unwrap(), scene);
         assert!(scene.setting().is_ok());
     }

@@ -53,6 +53,7 @@ fn scene(time: &str, place: &[f64]) -> Scene {
             height_px: 512,
         },
         layers: Layers::default(),
+        sky: None,
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),

@@ -341,7 +341,7 @@ fn planned((instant, place, camera, air, layers, stars): SmallScene) -> FramePla
     let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance).unwrap();
     let night = Night::of(sky, stars, &air);
     let map = MoonMap { width: 8, height: 4, reff: vec![[0.1, 0.12, 0.08]; 32] };
-    let setting = Setting { instant, place, camera, tolerance };
+    let setting = Setting { instant, place, camera, tolerance, sky: None };
     lay(&setting, &layers, &night, || Ok(map)).unwrap().0
 }
 

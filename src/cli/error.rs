@@ -72,6 +72,7 @@ from_error!(Usage:
     crate::scene::SceneError,
     crate::ephemeris::EphemerisError,
     crate::air::AirError,
+    crate::air::classic::ClassicSkyError,
     crate::almanac::AlmanacError,
 );
 from_error!(Failure:

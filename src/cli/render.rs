@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use crate::air::Atmosphere;
+use crate::air::classic::{ClassicModel, ClassicSky};
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
 use crate::eye::Eye;
+use crate::plan::classic::ClassicLight;
 use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, ScenePlace};
 
 use super::WhereArgs;
@@ -52,6 +54,12 @@ pub struct RenderArgs {
     /// How far off positions may be, arcseconds [default: a tenth of a pixel]
     #[arg(long, value_name = "ARCSEC", allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// How the daylit sky is made; all but `solved` are classic models, for comparison [default: solved]
+    #[arg(long, value_enum, value_name = "MODEL")]
+    sky: Option<SkyArg>,
+    /// Turbidity of a classic model [default: that of the aerosol]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    turbidity: Option<f64>,
     /// Brighter (positive) or darker PNG, in factors of two [default: 0]
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
     exposure: Option<f64>,
@@ -103,6 +111,32 @@ impl From<ProjectionArg> for Projection {
     }
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SkyArg {
+    /// The air itself, by scattering
+    Solved,
+    /// Moon & Spencer 1942
+    CieOvercast,
+    /// Kittler 1967, CIE 1973
+    CieClear,
+    /// Perez, Seals & Michalsky 1993
+    Perez,
+    /// Preetham, Shirley & Smits 1999
+    Preetham,
+}
+
+impl SkyArg {
+    fn model(self) -> Option<ClassicModel> {
+        match self {
+            SkyArg::Solved => None,
+            SkyArg::CieOvercast => Some(ClassicModel::CieOvercast),
+            SkyArg::CieClear => Some(ClassicModel::CieClear),
+            SkyArg::Perez => Some(ClassicModel::Perez),
+            SkyArg::Preetham => Some(ClassicModel::Preetham),
+        }
+    }
+}
+
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let wrong = || "give width and height in pixels, such as 1920x1080".to_owned();
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
@@ -125,6 +159,9 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
         scene.camera.altitude_deg = args.altitude.unwrap_or(towards.altitude().deg());
         setting = scene.setting()?;
     }
+    // Refused before the long work.
+    let classic = scene.sky.filter(|_| outputs.draws());
+    let classic = classic.map(|sky| ClassicLight::of(&sky, &night)).transpose()?;
     let drawn = match outputs.draws() {
         true => Some(draw::draw(&scene, &setting, &night, catalogs, &mut progress)?),
         false => None,
@@ -146,7 +183,8 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
         }
     }
     if args.stats {
-        stats::write(report, &night, drawn.as_ref(), progress.times())?;
+        let sky = classic.map(|light| light.sky);
+        stats::write(report, &night, sky.as_ref(), drawn.as_ref(), progress.times())?;
     }
     Ok(())
 }
@@ -186,6 +224,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
             height_px: 720,
         },
         layers: Layers::default(),
+        sky: None,
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),
@@ -201,6 +240,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
     if let Some(words) = &args.atmosphere {
         scene.air = atmosphere::find(words)?;
     }
+    scene.sky = sky(args, scene.sky)?;
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
     scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);
@@ -208,6 +248,24 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         scene.marks = Marks { horizon: false, cardinal_points: false };
     }
     Ok(scene)
+}
+
+/// The classic sky that the options ask for, or that of the scene file with what they change.
+fn sky(args: &RenderArgs, base: Option<ClassicSky>) -> Result<Option<ClassicSky>, CliError> {
+    let sky = match args.sky.map(SkyArg::model) {
+        None => base,
+        Some(model) => model.map(|model| match base {
+            Some(base) if base.model == model => base,
+            _ => ClassicSky::new(model),
+        }),
+    };
+    match (sky, args.turbidity) {
+        (Some(sky), Some(_)) => Ok(Some(ClassicSky { turbidity: args.turbidity, ..sky })),
+        (None, Some(_)) => Err(CliError::Usage(
+            "--turbidity is for a classic sky; add --sky preetham, or leave it out".to_owned(),
+        )),
+        (sky, None) => Ok(sky),
+    }
 }
 
 fn read_scene(path: &Path) -> Result<Scene, CliError> {

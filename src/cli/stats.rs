@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use crate::air::classic::SkyUnderSun;
 use crate::light::night::Night;
 
 use super::draw::Drawn;
@@ -11,6 +12,7 @@ use super::draw::Drawn;
 pub fn write(
     out: &mut dyn Write,
     night: &Night,
+    sky: Option<&SkyUnderSun>,
     drawn: Option<&Drawn>,
     steps: &[(&'static str, Duration)],
 ) -> io::Result<()> {
@@ -23,6 +25,9 @@ pub fn write(
             state.body.name(),
             state.tier.to_string()
         )?;
+    }
+    if let Some(sky) = sky {
+        writeln!(out, "Sky\n  {}\n  {}", sky.label(), sky.model.fails())?;
     }
     if let Some(drawn) = drawn {
         writeln!(out, "Drawn and skipped")?;

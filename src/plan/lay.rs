@@ -10,6 +10,7 @@ use crate::sky::BodyState;
 use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
+use super::classic::ClassicLight;
 use super::ledger::Ledger;
 use super::skylight::{self, Shines, SolvedAir};
 use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
@@ -27,6 +28,7 @@ const BLUE_RIM: Angle = Angle::from_arcmin(1.0);
 const OUT_OF_VIEW: &str = "out of view";
 const BELOW_HORIZON: &str = "below the horizon";
 const SWITCHED_OFF: &str = "switched off";
+const NOT_IN_MODEL: &str = "not in the classic model of the sky";
 const TOO_FAINT: &str = "fainter than the magnitude limit";
 const OUTSHONE: &str = "under 1/10 000 of the sky behind it";
 const HIDDEN: &str = "behind the Moon or the Sun";
@@ -52,7 +54,8 @@ pub fn lay_in(
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
     let mut ledger = Ledger::default();
-    let sky = lay_sky(layers, night, &mut ledger, solved)?;
+    let classic = setting.sky.map(|sky| ClassicLight::of(&sky, night)).transpose()?;
+    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, solved)?;
     let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
     let mut moon_map = Some(moon_map);
 
@@ -93,13 +96,15 @@ pub fn lay_in(
 fn lay_sky(
     layers: &Layers,
     night: &Night,
+    classic: Option<&ClassicLight>,
     ledger: &mut Ledger,
     solved: &mut Option<SolvedAir>,
 ) -> Result<SkyPlan, PlanError> {
     let switched = |on: bool, shines: Shines| if on { shines } else { Shines::No(SWITCHED_OFF) };
     let sun = switched(layers.skylight, skylight::sun_shines(night));
-    let moon = switched(layers.skylight, skylight::moon_shines(night));
-    let dark = switched(layers.skylight, Shines::Yes);
+    let known = |shines: Shines| classic.map_or(shines, |_| Shines::No(NOT_IN_MODEL));
+    let moon = switched(layers.skylight, known(skylight::moon_shines(night)));
+    let dark = switched(layers.skylight, known(Shines::Yes));
     let ground = switched(layers.ground, Shines::Yes);
     for (layer, shines) in
         [("sunlit air", sun), ("moonlit air", moon), ("dark sky", dark), ("ground", ground)]
@@ -109,7 +114,10 @@ fn lay_sky(
             Shines::No(reason) => ledger.skip(layer, reason),
         }
     }
-    let mut sky = skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes, solved)?;
+    let mut sky = match classic.filter(|_| layers.skylight) {
+        Some(light) => light.plan(night),
+        None => skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes, solved)?,
+    };
     let (above, below) = sky.dark.split_at_mut(SKY_SHAPE.above);
     if !layers.skylight {
         above.fill(Xyzv::BLACK);

@@ -88,6 +88,23 @@ const CAMERAS: &[Case] = &[
     ("tolerance_nan", &["--tolerance", "NaN"], &["tolerance_arcsec is NaN", "0 to 360000"]),
     ("exposure_nan", &["--exposure", "NaN"], &["exposure_stops is NaN", "-40 to 40"]),
     ("exposure_infinite", &["--exposure", "-inf"], &["exposure_stops is -inf", "-40 to 40"]),
+    (
+        "classic_sky_at_night",
+        &["--at", "2026-08-12T21:30-07:00", "--sky", "preetham"],
+        &["preetham", "only a Sun above the horizon", "choose another time"],
+    ),
+    ("classic_sky_unknown", &["--sky", "hosek"], &["'hosek'", "cie-overcast", "preetham"]),
+    (
+        "turbidity_nan",
+        &["--sky", "cie-clear", "--turbidity", "NaN"],
+        &["turbidity is NaN", "cie-clear holds from 1.5 to 10"],
+    ),
+    (
+        "turbidity_of_the_overcast",
+        &["--sky", "cie-overcast", "--turbidity", "3"],
+        &["cie-overcast has no turbidity", "leave it out"],
+    ),
+    ("turbidity_alone", &["--turbidity", "3"], &["--turbidity is for a classic sky", "--sky"]),
     ("magnitude_nan", &["--magnitude-limit", "NaN"], &["magnitude_limit is NaN", "-30 to 100"]),
 ];
 

@@ -30,14 +30,15 @@ mod path;
 mod sky;
 
 use self::operator::{MOLECULAR_DEGREE, Nodes, Operators, Rule, reflectance};
-use self::path::Path;
+use self::path::{Medium, Path};
 pub use self::sky::SkyHarmonics;
+use super::ScatteringError;
 use super::field::altitude_grid_km;
 use super::lanes::{LANES, Lanes};
 use super::profile::{EARTH_RADIUS_KM, Optics, Profile, SCATTERERS, TOP_KM, WAVELENGTH_RANGE_NM};
-use super::rays::{Geometry, Medium, RaySteps};
-use super::{ScatteringError, phase};
+use super::rays::{Geometry, RaySteps};
 use crate::air::Atmosphere;
+use crate::air::phase;
 use crate::units::Angle;
 
 /// Where aerosol scatters less than this part of what molecules do, their degrees suffice.
@@ -155,13 +156,15 @@ impl DiffuseTables {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let geometry = Geometry::new(Profile::new(air));
+        let ground_km = air.ground_km(observer_height_m);
+        // What is bent by some arcminutes comes from skies that are as even there.
+        let geometry = Geometry { profile: Profile::new(air), ground_km, refractivity: 0.0 };
         let density_ratio = air.density_ratio_at(observer_height_m);
         let bands = wavelengths_nm
             .chunks(LANES)
             .map(|chunk| {
                 let optics = Optics::new(air, density_ratio, chunk);
-                let nodes = nodes(air, &geometry.profile, &optics, chunk, &quality);
+                let nodes = nodes(air, &geometry, &optics, chunk, &quality);
                 let altitudes_km = nodes.altitudes_km.clone();
                 let medium = medium(&geometry, &optics, &altitudes_km);
                 let rule =
@@ -226,30 +229,34 @@ impl Solved {
     fn path(&self, band: &Band, height_km: f64, view_elevation: Angle) -> Path {
         let nodes = &band.operators.nodes;
         let medium = medium(&self.geometry, &band.optics, &nodes.altitudes_km);
-        Path::cut(&medium, &self.view, height_km.clamp(0.0, TOP_KM), view_elevation.sin())
+        Path::cut(
+            &medium,
+            &self.view,
+            height_km.clamp(self.geometry.ground_km, TOP_KM),
+            view_elevation.sin(),
+        )
     }
 }
 
 fn medium<'a>(geometry: &'a Geometry, optics: &'a Optics, altitudes_km: &'a [f64]) -> Medium<'a> {
-    // The harmonics that a ray brings along are not those of this folder.
-    Medium { geometry, optics, altitudes_km, degree: 0 }
+    Medium { geometry, optics, altitudes_km }
 }
 
 /// Heights of the field; high degrees only where aerosol scatters next to them.
 fn nodes(
     air: &Atmosphere,
-    profile: &Profile,
+    geometry: &Geometry,
     optics: &Optics,
     wavelengths_nm: &[f64],
     quality: &DiffuseQuality,
 ) -> Nodes {
-    let altitudes_km = altitude_grid_km(quality.altitudes);
+    let altitudes_km = altitude_grid_km(geometry.ground_km, quality.altitudes);
     let aerosols = air.aerosols();
     let is_hazy = |from_km: f64, to_km: f64| {
         let samples = ((to_km - from_km) / 0.5).ceil().max(1.0);
         (0..=samples as usize).any(|i| {
             let height_km = from_km + (to_km - from_km) * i as f64 / samples;
-            let (molecules, aerosol) = optics.mean_scattering(profile.density(height_km));
+            let (molecules, aerosol) = optics.mean_scattering(geometry.profile.density(height_km));
             aerosol > NEGLIGIBLE_AEROSOL * molecules
         })
     };

@@ -16,7 +16,6 @@ use super::harmonics::{
 use super::lanes::Lanes;
 use super::rays::{Medium, Ray, RaySteps, Source};
 use super::view::{add_higher_orders, first_order};
-use crate::air::EARTH_RADIUS_KM;
 use crate::background::Interrupt;
 
 /// The iteration ends here if it has not converged before.
@@ -86,9 +85,7 @@ impl Sweep {
         let mut starts = Vec::new();
         for &height_km in medium.altitudes_km {
             // Dense next to the horizon, on both sides of it.
-            let ground_radius_km = medium.geometry.ground_radius_km();
-            let ratio = ground_radius_km / (EARTH_RADIUS_KM + height_km);
-            let horizon = -(1.0 - ratio * ratio).max(0.0).sqrt();
+            let horizon = medium.geometry.cos_horizon(height_km);
             for (t, w) in gauss_legendre(directions.above) {
                 let span = 1.0 - horizon;
                 starts.push((height_km, horizon + span * t * t, span * 2.0 * t * w));

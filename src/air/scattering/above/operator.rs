@@ -13,10 +13,9 @@ use rayon::prelude::*;
 use super::super::harmonics::gauss_legendre;
 use super::super::lanes::{LANES, Lanes};
 use super::super::profile::SCATTERERS;
-use super::super::rays::{Medium, RaySteps};
-use super::super::view::cos_horizon;
+use super::super::rays::RaySteps;
 use super::legendre::Legendre;
-use super::path::Path;
+use super::path::{Medium, Path};
 
 /// The degree that molecules ask for.
 pub(super) const MOLECULAR_DEGREE: usize = 2;
@@ -141,7 +140,7 @@ impl Operators {
                 let mut rows: Vec<Rows> =
                     layouts.iter().map(|layout| Rows::new(layout, altitude)).collect();
                 // Dense next to the horizon, on both sides of it.
-                let horizon = cos_horizon(height_km);
+                let horizon = medium.geometry.cos_horizon(height_km);
                 let up = above.iter().map(|&(t, w)| (1.0 - horizon, t, w));
                 let down = below.iter().map(|&(t, w)| (-1.0 - horizon, t, w));
                 let spokes = up
