@@ -151,6 +151,13 @@ impl Atmosphere {
         [haze, self.stratospheric_aerosol.as_ref()].map(|a| a.filter(|a| a.optical_depth_550 > 0.0))
     }
 
+    /// Height above sea level of the eye of an observer, kilometres: 2 m above the ground he stands on,
+    /// so that his horizon lies 2.5 arcminutes below the level.
+    pub fn eye_km(&self, observer_height_m: f64) -> f64 {
+        const EYE_KM: f64 = 0.002;
+        (observer_height_m / 1000.0).max(self.ground_km(observer_height_m) + EYE_KM)
+    }
+
     /// Height of the ground around an observer of the given height, kilometres above sea level.
     pub fn ground_km(&self, observer_height_m: f64) -> f64 {
         (self.ground.height_m.unwrap_or(observer_height_m).min(observer_height_m) / 1000.0).max(0.0)
@@ -201,7 +208,7 @@ impl Atmosphere {
     /// The air at an observer of the given height, as refraction of one wavelength asks for it.
     pub fn observer_air(&self, height_m: f64, wavelength_nm: f64) -> ObserverAir {
         ObserverAir {
-            height_m,
+            height_m: 1000.0 * self.eye_km(height_m),
             pressure_mbar: self.pressure_mbar_at(height_m),
             temperature_c: self.observer.temperature_c,
             relative_humidity: self.observer.relative_humidity,

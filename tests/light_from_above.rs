@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use nocturne::air::Atmosphere;
+use nocturne::air::aerosol::PhaseLaw;
 use nocturne::air::scattering::above::{
     DiffuseField, DiffuseQuality, DiffuseTables, SkyHarmonics, glowing_layer,
 };
@@ -17,7 +18,7 @@ fn deg(deg: f64) -> Angle {
 fn white(air: Atmosphere) -> Atmosphere {
     let mut air = air.straight();
     air.ozone.column_du = 0.0;
-    air.aerosol.single_scattering_albedo = 1.0;
+    air.aerosol.single_scattering_albedo = Some(1.0);
     air.ground.albedo = 1.0;
     air
 }
@@ -104,7 +105,7 @@ fn finer_tables_change_little() {
     };
     let mut thick = Atmosphere::default();
     thick.aerosol.optical_depth_550 = 0.5;
-    thick.aerosol.asymmetry = 0.8;
+    thick.aerosol.phase = PhaseLaw::HenyeyGreenstein { g: 0.8 };
     for (air, render, axial) in [
         (Atmosphere::molecular(), 0.002, 0.004),
         (Atmosphere::default(), 0.005, 0.01),

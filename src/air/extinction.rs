@@ -103,7 +103,7 @@ impl SightLines {
         let depth_550 = |a: Option<&Aerosol>| a.map_or(0.0, |a| a.optical_depth_550);
         let unit = Columns { air_per_m2: 1.0, ozone_per_m2: 1.0, aerosols_550: [1.0; 2] };
         SightLines {
-            horizon: bending.horizon_altitude(height_km, air.ground_km(height_m).min(height_km)),
+            horizon: bending.horizon_altitude(air.eye_km(height_m), air.ground_km(height_m)),
             bending,
             densities: Profile::new(air),
             per_km: Columns {
@@ -117,7 +117,7 @@ impl SightLines {
         }
     }
 
-    /// The apparent altitude of the horizon of the ground around: zero on it, lower from above it.
+    /// The apparent altitude of the horizon of the ground around.
     pub fn horizon(&self) -> Angle {
         self.horizon
     }
@@ -157,14 +157,14 @@ impl SightLines {
     }
 }
 
-/// The apparent altitude of the horizon: zero for who stands on the ground, lower from above it.
+/// The apparent altitude of the horizon: that of an eye 2 m above the ground he stands on, or of the
+/// height given, if that is higher.
 ///
 /// The Earth is a smooth sphere of the height of [`crate::air::Ground`], seen through the air of
 /// [`Atmosphere`]. Below sea level the observer stands on the ground.
 pub fn horizon_altitude(air: &Atmosphere, height_m: f64) -> Angle {
-    let height_km = height_m / 1000.0;
-    let ground_km = air.ground_km(height_m).min(height_km);
-    SightBending::of(air, height_m).horizon_altitude(height_km, ground_km)
+    let bending = SightBending::of(air, height_m);
+    bending.horizon_altitude(air.eye_km(height_m), air.ground_km(height_m))
 }
 
 /// What stands between an observer and the light of an apparent altitude: [`SightLines::columns`]
@@ -281,10 +281,10 @@ mod tests {
     #[test]
     fn the_horizon_dips_with_height() {
         let mut air = Atmosphere::default();
-        assert_eq!(horizon_altitude(&air, 2500.0), Angle::ZERO);
+        // Of an eye 2 m high.
+        let standing = |height_m: f64| horizon_altitude(&air, height_m).arcmin();
+        assert!([2500.0, 0.0, -400.0].iter().all(|&m| (standing(m) + 2.5).abs() < 0.1));
         air.ground.height_m = Some(0.0);
-        assert_eq!(horizon_altitude(&air, 0.0), Angle::ZERO);
-        assert_eq!(horizon_altitude(&air, -400.0), Angle::ZERO);
         // Without air: cos(dip) = R / (R + h).
         let mut vacuum = air.clone();
         vacuum.observer.pressure_mbar = Some(1e-9);

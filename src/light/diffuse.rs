@@ -27,8 +27,10 @@ use rayon::prelude::*;
 use crate::air::Atmosphere;
 use crate::air::extinction;
 use crate::air::scattering::above::{DiffuseField, DiffuseQuality, DiffuseTables, glowing_layer};
-use crate::air::scattering::{Matrix, SKY_NODES_NM, ScatteringError, reconstruction_matrix};
-use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
+use crate::air::scattering::{
+    Matrix, SKY_NODES_NM, ScatteringError, horizon, reconstruction_matrix,
+};
+use crate::light::spectrum::{LEN, Spectrum, Transmittance, wavelength_nm};
 use crate::light::sun;
 use crate::units::{Angle, Xyzv};
 
@@ -179,6 +181,8 @@ struct AirOfNight {
     air: Atmosphere,
     height_m: f64,
     layer_height_km: f64,
+    horizon: Angle,
+    straight_horizon: Angle,
     /// Airglow, and the even rest.
     fields: [DiffuseField; 2],
 }
@@ -187,14 +191,28 @@ impl AirOfNight {
     fn new(sky: &NightSky, air: &Atmosphere, height_m: f64, tables: &DiffuseTables) -> AirOfNight {
         let layer = glowing_layer(sky.layer_height_km);
         let fields = [tables.lit_from(layer), tables.lit_from(|_, _| 1.0)];
-        AirOfNight { air: air.clone(), height_m, layer_height_km: sky.layer_height_km, fields }
+        let eye_km = air.eye_km(height_m);
+        AirOfNight {
+            air: air.clone(),
+            height_m,
+            layer_height_km: sky.layer_height_km,
+            horizon: horizon(air, height_m, eye_km),
+            straight_horizon: horizon(&air.clone().straight(), height_m, eye_km),
+            fields,
+        }
     }
 
     /// Radiance at an apparent altitude over that of the zenith outside, by part and node.
     fn factors(&self, apparent_altitude: Angle) -> [[f64; LEN]; 2] {
-        let altitude = apparent_altitude.max(Angle::ZERO);
-        let height_km = self.height_m / 1000.0;
-        let passed = extinction::transmittance(&self.air, self.height_m, altitude);
+        let height_km = self.air.eye_km(self.height_m);
+        // The field knows straight rays, whose horizon is a little lower.
+        let (passed, altitude) = if apparent_altitude >= self.horizon {
+            let passed = extinction::transmittance(&self.air, self.height_m, apparent_altitude);
+            (passed, apparent_altitude.max(self.straight_horizon))
+        } else {
+            let lowered = apparent_altitude + self.straight_horizon - self.horizon;
+            (Transmittance::OPAQUE, lowered.max(Angle::from_deg(-90.0)))
+        };
         let layer = glowing_layer(self.layer_height_km)(height_km, altitude.sin());
         let mut nodes = [0.0; SKY_NODES_NM.len()];
         [0, 1].map(|part| {
@@ -215,8 +233,8 @@ pub struct DarkSky {
 }
 
 impl DarkSky {
-    /// Spectral radiance at an apparent altitude, W m-2 sr-1 nm-1. Below the horizontal plane that of
-    /// the plane.
+    /// Spectral radiance at an apparent altitude, W m-2 sr-1 nm-1. Below the horizon that of the ground
+    /// and of the air before it.
     pub fn radiance(&self, apparent_altitude: Angle) -> Spectrum {
         let factors = self.air.factors(apparent_altitude);
         let [airglow, rest] =
@@ -299,7 +317,9 @@ mod tests {
             assert!((got / expected - 1.0).abs() < 0.1, "{altitude_deg}°: {got} {expected}");
         }
         let rows = sky.luminances(&[deg(0.0), deg(-20.0), deg(12.0)]);
-        assert_eq!(rows[0], rows[1]);
+        // Below lies ground of albedo 0.1.
+        let ground = 0.1 * sky.ground_illuminance().y / std::f64::consts::PI;
+        assert!((rows[1].y / ground - 1.0).abs() < 0.01, "{} {ground}", rows[1].y);
         // Brightest some way up, dimmer at the horizon itself, where the haze is dark.
         assert!(rows[2].y > 1.5 * zenith && rows[0].y < zenith && rows[0].y > 0.5 * zenith);
     }
@@ -367,7 +387,8 @@ mod tests {
         let dark = sky.through(&void, 0.0).unwrap();
         let ratio = dark.luminance(Angle::ZERO).y / dark.luminance(deg(90.0)).y;
         // Noll et al. 2012: (1 - 0.972)^(-1/2) = 5.98 at the horizon.
-        let expected = (1.0 - (6371.0f64 / 6460.2).powi(2)).powf(-0.5);
+        // An eye stands 2 m high.
+        let expected = (1.0 - (6371.002f64 / 6460.2).powi(2)).powf(-0.5);
         assert!((ratio - expected).abs() < 1e-6 && (ratio - 5.98).abs() < 0.1, "{ratio}");
         let even = NightSky { airglow_share: 0.3, ..sky.clone() }.outside().unwrap();
         let outside: f64 = even.iter().map(|part| part.xyzv().y).sum();

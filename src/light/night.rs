@@ -53,7 +53,7 @@ pub struct Night {
     pub air: Atmosphere,
     /// How the air bends light, made once for the night; clones share its tables.
     pub refraction: Refraction,
-    /// Apparent altitude of the horizon of the ground around: zero on it, lower from above it.
+    /// Apparent altitude of the horizon of the ground around.
     pub horizon: Angle,
     /// Sun, Moon, planets, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,

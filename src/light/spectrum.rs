@@ -129,6 +129,8 @@ impl Spectrum {
 impl Transmittance {
     /// Nothing is lost.
     pub const CLEAR: Transmittance = Transmittance([1.0; LEN]);
+    /// Nothing passes.
+    pub const OPAQUE: Transmittance = Transmittance([0.0; LEN]);
 
     /// From optical depths at the nodes, each zero or more.
     pub fn from_optical_depths(depths: &[f64; LEN]) -> Self {

@@ -19,7 +19,6 @@ use crate::light::night::Night;
 use crate::light::spectrum::{Spectrum, chromaticity_xy};
 use crate::units::{Angle, Xyzv};
 
-use super::skylight::eye_km;
 use super::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// A classic sky over its ground, in the weather and under the Sun of a night.
@@ -52,7 +51,7 @@ impl ClassicLight {
             air: AerialPerspective::new(air, height_m),
             sun,
             ground: lit * (air.ground.albedo / PI),
-            eye_above_ground_km: eye_km(air, height_m) - air.ground_km(height_m),
+            eye_above_ground_km: air.eye_km(height_m) - air.ground_km(height_m),
         })
     }
 
@@ -73,7 +72,7 @@ impl ClassicLight {
     pub fn plan(&self, night: &Night) -> SkyPlan {
         let height_m = night.sky.place.height_m;
         let shape = SKY_SHAPE;
-        let mut plan = SkyPlan::black(horizon(&night.air, height_m, eye_km(&night.air, height_m)));
+        let mut plan = SkyPlan::black(horizon(&night.air, height_m, night.air.eye_km(height_m)));
         let light = |node: usize| {
             let (row, azimuth) = (node / shape.azimuths, shape.azimuth(node % shape.azimuths));
             let altitude = shape.elevation(row, plan.horizon);

@@ -1,7 +1,5 @@
 //! The light of the sky as tables, from the solved air and what shines into it.
 
-use rayon::prelude::*;
-
 use crate::air::Atmosphere;
 use crate::air::scattering::{
     Matrix, Quality, SKY_NODES_NM, SUMS, ScatteringError, ScatteringTables, SkyRays, SkyShape,
@@ -51,8 +49,6 @@ pub fn moon_shines(night: &Night) -> Shines {
 
 /// The nodes that are computed; cubics through them make [`SKY_SHAPE`].
 pub const COMPUTED_SHAPE: SkyShape = SkyShape { above: 31, below: 11, azimuths: 25 };
-/// Height of an observer's eye above the ground he stands on, kilometres.
-const EYE_KM: f64 = 0.002;
 
 /// The air solved once for an atmosphere around an observer, and the rays he looks along.
 pub struct SolvedAir {
@@ -69,7 +65,7 @@ impl SolvedAir {
         let wavelengths: Vec<f64> = (0..LEN).map(wavelength_nm).collect();
         let tables = ScatteringTables::for_observer(air, height_m, &SKY_NODES_NM, Quality::RENDER)?;
         Ok(SolvedAir {
-            rays: tables.sky_rays(eye_km(air, height_m), COMPUTED_SHAPE),
+            rays: tables.sky_rays(air.eye_km(height_m), COMPUTED_SHAPE),
             air: air.clone(),
             height_m,
             tables,
@@ -115,11 +111,6 @@ impl SolvedAir {
     }
 }
 
-/// Height above sea level of the eye of an observer, kilometres.
-pub fn eye_km(air: &Atmosphere, height_m: f64) -> f64 {
-    (height_m / 1000.0).max(air.ground_km(height_m) + EYE_KM)
-}
-
 /// The sky of a night. Solves the air only if something shines into it, and if it is not the air that
 /// `solved` holds.
 pub fn sky_plan(
@@ -129,7 +120,7 @@ pub fn sky_plan(
     solved: &mut Option<SolvedAir>,
 ) -> Result<SkyPlan, ScatteringError> {
     let height_m = night.sky.place.height_m;
-    let mut sky = SkyPlan::black(horizon(&night.air, height_m, eye_km(&night.air, height_m)));
+    let mut sky = SkyPlan::black(horizon(&night.air, height_m, night.air.eye_km(height_m)));
     for (shines, state, lit) in [
         (with_sun, &night.sky.sun, &mut sky.sun),
         (with_moon, &night.sky.moon.state, &mut sky.moon),
@@ -139,25 +130,14 @@ pub fn sky_plan(
             *lit = Some(air.sky(state.dir, &night.irradiance(state)));
         }
     }
-    sky.dark = dark_sky(night, sky.horizon);
+    sky.dark = dark_sky(night, sky.horizon)?;
     Ok(sky)
 }
 
-/// The sky without Sun and Moon, and level ground under it, by the rows of [`SKY_SHAPE`]. The air
-/// between the ground and the eye is left out: 5 km of it at most, at the horizon.
-fn dark_sky(night: &Night, horizon: Angle) -> Vec<Xyzv> {
-    let natural = NightSky::default();
-    let height_m = night.sky.place.height_m;
-    let elevation = |row| SKY_SHAPE.elevation(row, horizon);
-    let mut rows: Vec<Xyzv> = (0..SKY_SHAPE.above)
-        .into_par_iter()
-        .map(|row| natural.luminance(&night.air, height_m, elevation(row)))
-        .collect();
-    // Irradiance of level ground: pi times the mean over the square of the sine.
-    let share = |row: usize| elevation(row).sin().max(0.0).powi(2);
-    let ground: Xyzv = (1..SKY_SHAPE.above)
-        .map(|row| (rows[row - 1] + rows[row]) * (0.5 * (share(row) - share(row - 1))))
-        .sum();
-    rows.resize(SKY_SHAPE.rows(), ground * night.air.ground.albedo);
-    rows
+/// The sky without Sun and Moon, and the ground under it, by the rows of [`SKY_SHAPE`].
+fn dark_sky(night: &Night, horizon: Angle) -> Result<Vec<Xyzv>, ScatteringError> {
+    let dark = NightSky::default().through(&night.air, night.sky.place.height_m)?;
+    let elevations: Vec<Angle> =
+        (0..SKY_SHAPE.rows()).map(|row| SKY_SHAPE.elevation_beside(row, horizon)).collect();
+    Ok(dark.luminances(&elevations))
 }

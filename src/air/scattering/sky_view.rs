@@ -65,6 +65,15 @@ impl SkyShape {
             horizon - (Angle::from_deg(90.0) + horizon) * (t * t * t * t)
         }
     }
+    /// The same, but the rows at the horizon look a little to their side of it.
+    pub fn elevation_beside(self, row: usize, horizon: Angle) -> Angle {
+        let beside = match row {
+            0 => BESIDE_HORIZON,
+            row if row == self.above => -BESIDE_HORIZON,
+            _ => Angle::ZERO,
+        };
+        self.elevation(row, horizon) + beside
+    }
     /// The azimuth from the source of a column.
     pub fn azimuth(self, column: usize) -> Angle {
         Angle::from_deg(180.0 * column as f64 / (self.azimuths - 1) as f64)
@@ -185,15 +194,8 @@ impl ScatteringTables {
     /// Cuts the rays of an observer, who stands at a height above sea level, kilometres.
     pub fn sky_rays(&self, height_km: f64, shape: SkyShape) -> SkyRays {
         let horizon = self.horizon(height_km);
-        let elevation = |row: usize| {
-            let beside = match row {
-                0 => BESIDE_HORIZON,
-                row if row == shape.above => -BESIDE_HORIZON,
-                _ => Angle::ZERO,
-            };
-            shape.elevation(row, horizon) + beside
-        };
-        let elevations: Vec<Angle> = (0..shape.rows()).map(elevation).collect();
+        let elevations: Vec<Angle> =
+            (0..shape.rows()).map(|row| shape.elevation_beside(row, horizon)).collect();
         SkyRays { shape, horizon, height_km, rays: self.view_rays(height_km, &elevations) }
     }
 
