@@ -128,17 +128,7 @@ impl Beams {
         sea_level_refractivity: f64,
         disc_radius: Angle,
     ) -> Beams {
-        Beams::finer(profile, ground_km, sea_level_refractivity, disc_radius, 1)
-    }
-
-    pub(super) fn finer(
-        profile: &Profile,
-        ground_km: f64,
-        sea_level_refractivity: f64,
-        disc_radius: Angle,
-        fineness: usize,
-    ) -> Beams {
-        let shells = Shells::new(profile, ground_km, sea_level_refractivity, fineness);
+        let shells = Shells::new(profile, ground_km, sea_level_refractivity, 1);
         let traces: Vec<Trace> =
             invariants_km(&shells).into_par_iter().map(|p_km| shells.trace(p_km)).collect();
         let rows: Vec<Vec<Node>> =
@@ -246,11 +236,4 @@ fn nodes(traces: &[Trace], level: usize) -> Vec<Node> {
     }
     debug_assert!(nodes.iter().all(|n| (0.0..=PI).contains(&n.true_zenith)));
     nodes
-}
-
-#[cfg(test)]
-impl Beams {
-    pub(super) fn shells(&self) -> &Shells {
-        &self.shells
-    }
 }
