@@ -5,7 +5,7 @@
 //! the ground leaves. The true zenith distance, as if there were no air, says where the source stands.
 //!
 //! *Disc.* The mean of what a point of the source sends over level chords of its disc, each weighted
-//! with its length and its mean radiance by a linear law of limb darkening; those below the edge of the
+//! with its length and its mean radiance after a linear law of limb darkening; those below the edge of the
 //! shadow send nothing. The disc is a single one for all wavelengths: the Sun's law of 550 nm.
 //!
 //! *Table.* Rows by height, at the levels of the shells. In a row, places are `v / (v + b)`, `v` the cosine
@@ -18,9 +18,11 @@
 //! *Omitted.* The colour of refraction, the azimuth of the chords with a source near the zenith (where no
 //! disc matters), clouds and mountains on the horizon.
 //!
-//! *Accuracy*, eight bands from 385 to 665 nm, all heights, against rays followed one by one with four
-//! times finer shells and a disc of 200 chords: 0.6 % where the irradiance is above 1e-3, 0.4 % above
-//! 1e-2, 6e-6 absolute elsewhere. Of a point: 1.2 %, for the red light that grazes haze; mostly 0.1 %.
+//! *Accuracy*, eight wavelengths from 385 to 665 nm, all heights, largest differences. A disc in refracting
+//! air, against rays followed one by one through shells four times finer and a disc of 200 chords: 0.5 %
+//! where the irradiance is above 1e-2, 1.6 % above 1e-3, 9e-5 absolute below. A point and straight
+//! rays, against the closed form: 1.1 % above 1e-3 (red light that grazes haze, seen from high up),
+//! 1e-5 absolute below.
 
 mod beams;
 mod shells;

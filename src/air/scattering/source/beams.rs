@@ -5,7 +5,7 @@
 //! one, and past it, one for each level that they touch and one between each two. At each level the
 //! rays that reach it are its nodes; between them everything is a cubic in the true zenith distance.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 
@@ -128,17 +128,7 @@ impl Beams {
         sea_level_refractivity: f64,
         disc_radius: Angle,
     ) -> Beams {
-        Beams::finer(profile, ground_km, sea_level_refractivity, disc_radius, 1)
-    }
-
-    pub(super) fn finer(
-        profile: &Profile,
-        ground_km: f64,
-        sea_level_refractivity: f64,
-        disc_radius: Angle,
-        fineness: usize,
-    ) -> Beams {
-        let shells = Shells::new(profile, ground_km, sea_level_refractivity, fineness);
+        let shells = Shells::new(profile, ground_km, sea_level_refractivity, 1);
         let traces: Vec<Trace> =
             invariants_km(&shells).into_par_iter().map(|p_km| shells.trace(p_km)).collect();
         let rows: Vec<Vec<Node>> =
@@ -244,13 +234,5 @@ fn nodes(traces: &[Trace], level: usize) -> Vec<Node> {
         }
         nodes.push(Node::from(edge));
     }
-    debug_assert!(nodes.iter().all(|n| (0.0..=PI).contains(&n.true_zenith)));
     nodes
-}
-
-#[cfg(test)]
-impl Beams {
-    pub(super) fn shells(&self) -> &Shells {
-        &self.shells
-    }
 }

@@ -27,7 +27,9 @@
 //! *Omitted.* Dispersion (2 % of the bending from 450 to 650 nm), water vapour.
 //!
 //! *Accuracy.* Columns of straight rays are exact. For bent rays `rho / (dx/dr)` and `q` are taken for
-//! linear in a shell of 0.25 km and more: 1e-4 of their value or less.
+//! linear in a shell, 0.25 km thick below 12 km. Refraction at the horizon agrees with
+//! `air::refraction` within 0.2" at sea level and 0.7" at 2 km; the spreading with differences of rays
+//! within 0.5 %; the first order of light at the zenith, not spread, with sasktran2 within 0.16 %.
 
 use super::super::profile::{EARTH_RADIUS_KM, Profile, SPECIES, TOP_KM};
 
