@@ -141,14 +141,16 @@ mod tests {
     fn the_ground_fades_into_its_air() {
         let night = night("15:00");
         let light = ClassicLight::of(&ClassicSky::new(ClassicModel::Preetham), &night).unwrap();
-        let below = |altitude_deg| light.ground(Angle::from_deg(altitude_deg), Angle::ZERO);
-        let (feet, far) = (below(-90.0), below(-0.05));
+        let below = |altitude_deg, azimuth_deg| {
+            light.ground(Angle::from_deg(altitude_deg), Angle::from_deg(azimuth_deg))
+        };
+        let (feet, towards, away) = (below(-90.0, 0.0), below(-0.05, 0.0), below(-0.05, 180.0));
         // A Lambert plane under sky and Sun, and little air before it.
         let sun = night.body(crate::ephemeris::Body::Sun).unwrap();
         let lx = light.sky.illuminance().y + sun.ground.y * sun.apparent.altitude().sin();
         assert!((feet.y / (lx * 0.1 / PI) - 1.0).abs() < 0.01, "{feet:?} {lx}");
-        // At 2 km the air before the ground has begun to turn it blue.
-        assert!(far.z / far.y > 1.05 * feet.z / feet.y, "{feet:?} {far:?}");
+        // Near the horizon haze shines before it under the Sun, and opposite takes more than it gives.
+        assert!(towards.y > 2.0 * feet.y && away.y < feet.y, "{towards:?} {feet:?} {away:?}");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //!
 //! **Clear.** `L = Lz f(g) p(z) / (f(zs) p(0))`, `f(g) = 0.91 + 10 exp(-3 g) + 0.45 cos^2 g`,
 //! `p(z) = 1 - exp(-0.32 / cos z)`, with `g` the angle from the Sun and `zs` the Sun's zenith distance:
-//! Kittler 1967, CIE 22 (1973), CIE 110-1994. The zenith is
+//! Kittler 1967, CIE 22 (1973), CIE 110-1994 (the formula as in Preetham's notes of SIGGRAPH 2003). The zenith is
 //! `Lz = (1376 T - 1810) tan h + 380` cd/m2 with the turbidity `T` (the formula of `gensky`; recalled
 //! to be that of Karayel et al. 1984, *Energy and Buildings* 6, 283, from San Francisco).
 //!

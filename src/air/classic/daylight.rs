@@ -1,7 +1,8 @@
 //! Daylight of a chromaticity: what the models' light is made of.
 //!
 //! The spectrum is `S0 + M1 S1 + M2 S2`, `M1` and `M2` rational in the chromaticity: Judd, MacAdam &
-//! Wyszecki 1964; CIE 15:2004, table T.2; Preetham, Shirley & Smits 1999, appendix 5. Luminance and
+//! Wyszecki 1964; CIE 15:2004, table T.2; `M1` and `M2` as in Preetham's
+//! notes of SIGGRAPH 2003, which took them from Wyszecki & Stiles 1982. Luminance and
 //! chromaticity of a light are kept as the model gives them; only the scotopic member is taken from the
 //! spectrum, by its ratio to the luminance, which is 2.5 for D65.
 //!
@@ -97,7 +98,7 @@ mod tests {
             let got = 100.0 * d65.at_nm(nm) / d65.at_nm(560.0);
             assert!((got / value - 1.0).abs() < 0.005, "{nm} nm: {got}");
         }
-        // S/P ratio of D65: 2.47 (CIE 191:2010).
+        // S/P ratio of D65: 2.47 (recalled from CIE 191:2010).
         assert!((scotopic_ratio(D65_XY) - 2.47).abs() < 0.02, "{}", scotopic_ratio(D65_XY));
     }
 

@@ -3,7 +3,7 @@
 //! Luminance `Y` and chromaticity `x`, `y` are each a value at the zenith times a gradation over its
 //! own value there (appendix 2 of the paper), all polynomials in the turbidity and in the zenith
 //! distance of the Sun, fitted to a simulation of two orders of scattering in a spherical air of
-//! molecules and haze without ozone, at turbidities 2 to 6.
+//! molecules and haze (without ozone, as recalled), at turbidities 2 to 6.
 //!
 //! The numbers have five decimals in the authors' program and four in print; these are the five. The
 //! directions of the chromaticity are as printed in the paper, not as in the course notes of 2003,
