@@ -14,6 +14,7 @@ pub mod aerosol;
 pub mod classic;
 pub mod cross_section;
 pub mod extinction;
+pub mod monte_carlo;
 mod named;
 pub mod phase;
 mod ray;

@@ -14,6 +14,7 @@ mod objects;
 mod outputs;
 mod place;
 mod progress;
+mod radiance;
 mod render;
 mod stage;
 mod stats;
@@ -57,6 +58,8 @@ enum Command {
     Ephemeris(ephemeris::EphemerisArgs),
     /// List airs that are known by name, or print the file of one, to copy and change
     Atmosphere(atmosphere::AtmosphereArgs),
+    /// Say how bright the sky is, for rows of a file: radiance, luminance, irradiance of the ground
+    Radiance(radiance::RadianceArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -148,6 +151,7 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Objects(args) => objects::run(args, &catalogs, out),
         Command::Almanac(args) => almanac::run(args, &catalogs, out),
         Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
+        Command::Radiance(args) => radiance::run(args, &catalogs, out),
         // Done above: no catalogue is needed.
         Command::Atmosphere(_) => Ok(()),
         #[cfg(feature = "gpu")]

@@ -18,11 +18,11 @@
 //! included. Below 14 degrees only its own convergence is known: some per cent.
 
 pub mod above;
-mod columns;
+pub(super) mod columns;
 mod field;
 mod ground;
 mod harmonics;
-mod lanes;
+pub(super) mod lanes;
 mod path;
 pub(in crate::air) mod profile;
 mod rays;

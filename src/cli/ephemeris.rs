@@ -3,7 +3,7 @@
 
 mod names;
 mod reckon;
-mod rows;
+pub(super) mod rows;
 mod sheet;
 mod span;
 mod stream;
@@ -203,15 +203,15 @@ fn written(
 }
 
 /// A file of rows, or standard input.
-struct Source {
-    name: String,
-    reader: Box<dyn Read>,
+pub(super) struct Source {
+    pub name: String,
+    pub reader: Box<dyn Read>,
     /// Of a file, for the progress.
     bytes: Option<u64>,
 }
 
 impl Source {
-    fn open(path: &Path) -> Result<Source, CliError> {
+    pub fn open(path: &Path) -> Result<Source, CliError> {
         if path == Path::new("-") {
             let name = "standard input".to_owned();
             return Ok(Source { name, reader: Box::new(io::stdin()), bytes: None });

@@ -268,7 +268,8 @@ fn sky(args: &RenderArgs, base: Option<ClassicSky>) -> Result<Option<ClassicSky>
     }
 }
 
-fn read_scene(path: &Path) -> Result<Scene, CliError> {
+/// The scene of a file, checked.
+pub fn read_scene(path: &Path) -> Result<Scene, CliError> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         CliError::Failure(format!(
             "cannot read --scene {}: {error}; --save-scene writes such a file",

@@ -99,7 +99,7 @@ impl SolvedAir {
     }
 
     /// What X, Y, Z and V make of a spectrum of light from a source, given at the nodes.
-    fn sums(&self, irradiance: &Spectrum) -> SpectralSums {
+    pub fn sums(&self, irradiance: &Spectrum) -> SpectralSums {
         let weights: Vec<[f64; SUMS]> = (0..LEN)
             .map(|node| {
                 let line = irradiance.weighted(|nm| f64::from(nm == wavelength_nm(node)));

@@ -17,7 +17,7 @@ const LONGEST_LINE: usize = 1 << 20;
 /// TT and UT1 of one instant are never farther apart: Delta-T is 1.3 days at -4000.
 const MOST_DELTA_T_DAYS: f64 = 2.0;
 /// A mark that some programs put before UTF-8.
-const BYTE_ORDER_MARK: &str = "\u{feff}";
+pub const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Places in [`KEYS`].
 const BODY: usize = 0;
@@ -77,7 +77,7 @@ impl Header {
 }
 
 /// The fields of a line, without the blanks around them.
-fn fields(line: &str) -> impl Iterator<Item = Result<&str, String>> {
+pub fn fields(line: &str) -> impl Iterator<Item = Result<&str, String>> {
     let mut rest = Some(line);
     std::iter::from_fn(move || {
         let text = rest?;
@@ -173,11 +173,11 @@ impl RowBlock {
     }
 }
 
-fn wrong(source: &str, line: usize, what: &str) -> CliError {
+pub fn wrong(source: &str, line: usize, what: &str) -> CliError {
     CliError::Usage(format!("{source}, line {line}: {what}"))
 }
 
-fn is_passed_over(line: &str) -> bool {
+pub fn is_passed_over(line: &str) -> bool {
     let line = line.trim_ascii_start();
     line.is_empty() || line.starts_with('#')
 }
@@ -228,7 +228,7 @@ fn read(
     row(&Asked { body: cells[BODY], target, instant, place: &place, numbers, written })
 }
 
-fn number(column: &str, cell: &str) -> Result<f64, String> {
+pub fn number(column: &str, cell: &str) -> Result<f64, String> {
     match cell.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ if cell.is_empty() => Err(format!("{column} is blank; give a number")),
