@@ -1,7 +1,5 @@
 //! The light of the sky as tables, from the solved air and what shines into it.
 
-use rayon::prelude::*;
-
 use crate::air::Atmosphere;
 use crate::air::scattering::{
     Matrix, Quality, SKY_NODES_NM, SUMS, ScatteringError, ScatteringTables, SkyRays, SkyShape,
@@ -139,25 +137,22 @@ pub fn sky_plan(
             *lit = Some(air.sky(state.dir, &night.irradiance(state)));
         }
     }
-    sky.dark = dark_sky(night, sky.horizon);
+    sky.dark = dark_sky(night, sky.horizon)?;
     Ok(sky)
 }
 
-/// The sky without Sun and Moon, and level ground under it, by the rows of [`SKY_SHAPE`]. The air
-/// between the ground and the eye is left out: 5 km of it at most, at the horizon.
-fn dark_sky(night: &Night, horizon: Angle) -> Vec<Xyzv> {
-    let natural = NightSky::default();
+/// The rows at the horizon look this far to their side of it.
+const BESIDE_HORIZON: Angle = Angle::from_arcsec(0.5);
+
+/// The sky without Sun and Moon, and the ground under it, by the rows of [`SKY_SHAPE`].
+fn dark_sky(night: &Night, horizon: Angle) -> Result<Vec<Xyzv>, ScatteringError> {
     let height_m = night.sky.place.height_m;
-    let elevation = |row| SKY_SHAPE.elevation(row, horizon);
-    let mut rows: Vec<Xyzv> = (0..SKY_SHAPE.above)
-        .into_par_iter()
-        .map(|row| natural.luminance(&night.air, height_m, elevation(row)))
-        .collect();
-    // Irradiance of level ground: pi times the mean over the square of the sine.
-    let share = |row: usize| elevation(row).sin().max(0.0).powi(2);
-    let ground: Xyzv = (1..SKY_SHAPE.above)
-        .map(|row| (rows[row - 1] + rows[row]) * (0.5 * (share(row) - share(row - 1))))
-        .sum();
-    rows.resize(SKY_SHAPE.rows(), ground * night.air.ground.albedo);
-    rows
+    let elevation = |row| match row {
+        0 => horizon + BESIDE_HORIZON,
+        _ if row == SKY_SHAPE.above => horizon - BESIDE_HORIZON,
+        _ => SKY_SHAPE.elevation(row, horizon),
+    };
+    let elevations: Vec<Angle> = (0..SKY_SHAPE.rows()).map(elevation).collect();
+    let sky = NightSky::default().through(&night.air, height_m)?;
+    Ok(sky.luminances(eye_km(&night.air, height_m), &elevations))
 }

@@ -30,14 +30,14 @@ mod path;
 mod sky;
 
 use self::operator::{MOLECULAR_DEGREE, Nodes, Operators, Rule, reflectance};
-use self::path::Path;
+use self::path::{Air, Path};
 pub use self::sky::SkyHarmonics;
+use super::ScatteringError;
 use super::field::altitude_grid_km;
 use super::lanes::{LANES, Lanes};
-use super::profile::{EARTH_RADIUS_KM, Optics, Profile, SCATTERERS, TOP_KM, WAVELENGTH_RANGE_NM};
-use super::rays::{Geometry, Medium, RaySteps};
-use super::{ScatteringError, phase};
-use crate::air::Atmosphere;
+use super::profile::{Optics, SCATTERERS, TOP_KM, WAVELENGTH_RANGE_NM};
+use super::rays::{Geometry, RaySteps};
+use crate::air::{Atmosphere, EARTH_RADIUS_KM, phase};
 use crate::units::Angle;
 
 /// Where aerosol scatters less than this part of what molecules do, their degrees suffice.
@@ -155,18 +155,20 @@ impl DiffuseTables {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let geometry = Geometry::new(Profile::new(air));
+        let geometry = Geometry::of(air, observer_height_m);
+        // As for light of the Sun: the field is solved along straight rays, and seen along bent ones.
+        let straight = geometry.straight();
         let density_ratio = air.density_ratio_at(observer_height_m);
         let bands = wavelengths_nm
             .chunks(LANES)
             .map(|chunk| {
                 let optics = Optics::new(air, density_ratio, chunk);
-                let nodes = nodes(air, &geometry.profile, &optics, chunk, &quality);
+                let nodes = nodes(air, &geometry, &optics, chunk, &quality);
                 let altitudes_km = nodes.altitudes_km.clone();
-                let medium = medium(&geometry, &optics, &altitudes_km);
+                let air = Air { geometry: &straight, optics: &optics, altitudes_km: &altitudes_km };
                 let rule =
                     Rule { above: quality.above, below: quality.below, steps: quality.steps };
-                let operators = Operators::new(&medium, nodes, &rule, quality.order);
+                let operators = Operators::new(&air, nodes, &rule, quality.order);
                 Band { optics, operators }
             })
             .collect();
@@ -212,44 +214,57 @@ impl DiffuseTables {
         DiffuseField { bands: bands.collect(), air: self.solved.clone() }
     }
 
-    /// What part of the light outside arrives unscattered, each wavelength; 0 if the ground is in
-    /// the way.
-    pub fn transmittance(&self, height_km: f64, view_elevation: Angle, out: &mut [f64]) {
-        for (band, out) in self.solved.bands.iter().zip(out.chunks_mut(LANES)) {
-            let path = self.solved.path(band, height_km, view_elevation);
+    /// The ray of a view, cut once for all skies: from a height, which is clamped to the air, in an
+    /// apparent elevation.
+    pub fn view(&self, height_km: f64, view_elevation: Angle) -> DiffuseView {
+        let paths = self.solved.bands.iter().map(|band| {
+            let height_km = height_km.clamp(self.solved.geometry.ground_km, TOP_KM);
+            let rule = &self.solved.view;
+            Path::cut(&self.solved.air(band), rule, height_km, view_elevation.sin())
+        });
+        DiffuseView { paths: paths.collect() }
+    }
+}
+
+/// The ray of a view.
+#[derive(Debug, Clone)]
+pub struct DiffuseView {
+    /// By band.
+    paths: Vec<Path>,
+}
+
+impl DiffuseView {
+    /// What part of the light outside arrives unscattered, each wavelength; 0 if the ground is in the
+    /// way.
+    pub fn transmittance(&self, out: &mut [f64]) {
+        for (path, out) in self.paths.iter().zip(out.chunks_mut(LANES)) {
             out.iter_mut().zip(path.from_space().0).for_each(|(out, t)| *out = f64::from(t));
         }
     }
 }
 
 impl Solved {
-    fn path(&self, band: &Band, height_km: f64, view_elevation: Angle) -> Path {
-        let nodes = &band.operators.nodes;
-        let medium = medium(&self.geometry, &band.optics, &nodes.altitudes_km);
-        Path::cut(&medium, &self.view, height_km.clamp(0.0, TOP_KM), view_elevation.sin())
+    fn air<'a>(&'a self, band: &'a Band) -> Air<'a> {
+        let altitudes_km = &band.operators.nodes.altitudes_km;
+        Air { geometry: &self.geometry, optics: &band.optics, altitudes_km }
     }
-}
-
-fn medium<'a>(geometry: &'a Geometry, optics: &'a Optics, altitudes_km: &'a [f64]) -> Medium<'a> {
-    // The harmonics that a ray brings along are not those of this folder.
-    Medium { geometry, optics, altitudes_km, degree: 0 }
 }
 
 /// Heights of the field; high degrees only where aerosol scatters next to them.
 fn nodes(
     air: &Atmosphere,
-    profile: &Profile,
+    geometry: &Geometry,
     optics: &Optics,
     wavelengths_nm: &[f64],
     quality: &DiffuseQuality,
 ) -> Nodes {
-    let altitudes_km = altitude_grid_km(quality.altitudes);
+    let altitudes_km = altitude_grid_km(geometry.ground_km, quality.altitudes);
     let aerosols = air.aerosols();
     let is_hazy = |from_km: f64, to_km: f64| {
         let samples = ((to_km - from_km) / 0.5).ceil().max(1.0);
         (0..=samples as usize).any(|i| {
             let height_km = from_km + (to_km - from_km) * i as f64 / samples;
-            let (molecules, aerosol) = optics.mean_scattering(profile.density(height_km));
+            let (molecules, aerosol) = optics.mean_scattering(geometry.profile.density(height_km));
             aerosol > NEGLIGIBLE_AEROSOL * molecules
         })
     };
@@ -290,21 +305,18 @@ pub struct DiffuseField {
 }
 
 impl DiffuseField {
-    /// Radiance of the air and of the ground, each wavelength, in the unit of the sky. What comes
-    /// straight from the sky is not in it: that is the sky times [`DiffuseTables::transmittance`].
-    ///
-    /// The height is clamped to that of the air; the azimuth is that of the harmonics.
-    pub fn radiance(&self, height_km: f64, view_elevation: Angle, azimuth: Angle, out: &mut [f64]) {
-        for ((band, orders), out) in
-            self.air.bands.iter().zip(&self.bands).zip(out.chunks_mut(LANES))
-        {
-            let path = self.air.path(band, height_km, view_elevation);
+    /// Radiance of the air and of the ground along a view, each wavelength, in the unit of the sky.
+    /// What comes straight from the sky is not in it: that is the sky times
+    /// [`DiffuseView::transmittance`]. The azimuth is that of the harmonics.
+    pub fn radiance(&self, view: &DiffuseView, azimuth: Angle, out: &mut [f64]) {
+        let bands = self.air.bands.iter().zip(&self.bands).zip(&view.paths);
+        for (((band, orders), path), out) in bands.zip(out.chunks_mut(LANES)) {
             let nodes = &band.operators.nodes;
             let mut sum = Lanes::ZERO;
             for (m, (field, operator)) in orders.iter().zip(&band.operators.orders).enumerate() {
                 let (sine, cosine) = (m as f64 * azimuth.rad()).sin_cos();
                 let (sine, cosine) = (sine as f32, cosine as f32);
-                operator.layout.along(nodes, &path, |place, weight| {
+                operator.layout.along(nodes, path, |place, weight| {
                     let mut moment = field.cos[place] * cosine;
                     if let Some(sin) = &field.sin {
                         moment += sin[place] * sine;
@@ -312,8 +324,8 @@ impl DiffuseField {
                     sum += weight * moment;
                 });
                 if let (true, Some(ground)) = (path.meets_ground, operator.layout.ground) {
-                    let medium = medium(&self.air.geometry, &band.optics, &nodes.altitudes_km);
-                    sum += path.transmittance * field.cos[ground] * reflectance(&medium);
+                    sum +=
+                        path.transmittance * field.cos[ground] * reflectance(&self.air.air(band));
                 }
             }
             out.iter_mut().zip(sum.0).for_each(|(out, value)| *out = f64::from(value));

@@ -190,13 +190,15 @@ impl Source {
     }
 }
 
-/// A step, before it is known what for.
-struct Step {
-    height_km: f64,
-    cos_view: f64,
-    turn: Turn,
-    weights: [Lanes; SCATTERERS],
-    is_hazy: bool,
+/// A step, before it is known what for: its sample point, and the weight of light that each scatterer
+/// sends from there to the start of the ray.
+pub(crate) struct Step {
+    pub height_km: f64,
+    /// Cosine between the ray and the vertical there.
+    pub cos_view: f64,
+    pub turn: Turn,
+    pub weights: [Lanes; SCATTERERS],
+    pub is_hazy: bool,
 }
 
 impl Ray {
@@ -215,7 +217,7 @@ impl Ray {
     /// Cut for light of the source alone.
     pub fn for_beam(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
         let mut beam = Vec::new();
-        let end = walk(medium, rule, height_km, cos_zenith, |step| {
+        let end = walk(medium.geometry, medium.optics, rule, height_km, cos_zenith, |step| {
             beam.push(BeamStep {
                 turn: step.turn,
                 row: medium.source.row(step.height_km),
@@ -229,7 +231,7 @@ impl Ray {
     /// Cut for light of the field alone.
     pub fn for_field(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Ray {
         let mut field = Vec::new();
-        let end = walk(medium, rule, height_km, cos_zenith, |step| {
+        let end = walk(medium.geometry, medium.optics, rule, height_km, cos_zenith, |step| {
             let [a, b, c] = step.weights;
             field.push(FieldStep {
                 turn: step.turn,
@@ -245,15 +247,15 @@ impl Ray {
 }
 
 /// Follows a ray in steps from its start.
-fn walk(
-    medium: &Medium,
+pub(crate) fn walk(
+    geometry: &Geometry,
+    optics: &Optics,
     rule: &RaySteps,
     height_km: f64,
     cos_zenith: f64,
     mut visit: impl FnMut(Step),
 ) -> End {
-    let Geometry { profile, ground_km, refractivity } = medium.geometry;
-    let optics = medium.optics;
+    let Geometry { profile, ground_km, refractivity } = geometry;
     let path = Path::new(profile, *refractivity, height_km, cos_zenith);
     let (cuts, hits_ground) = cuts(rule, optics.has_aerosol, &path, *ground_km);
     let end_of = |u_km: f64| {

@@ -1,8 +1,8 @@
 //! What this folder asks of a ray: where it is sampled, what is scattered there, where it ends.
 
 use super::super::lanes::Lanes;
-use super::super::profile::SCATTERERS;
-use super::super::rays::{Bracket, Medium, Ray, RaySteps};
+use super::super::profile::{Optics, SCATTERERS};
+use super::super::rays::{Bracket, Geometry, RaySteps, walk};
 
 /// A sample of a ray.
 #[derive(Debug, Clone, Copy)]
@@ -24,19 +24,25 @@ pub(super) struct Path {
     pub meets_ground: bool,
 }
 
+/// What a path is cut in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Air<'a> {
+    pub geometry: &'a Geometry,
+    pub optics: &'a Optics,
+    pub altitudes_km: &'a [f64],
+}
+
 impl Path {
-    pub fn cut(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Path {
-        let ray = Ray::cut(medium, rule, height_km, cos_zenith);
-        let samples = ray.steps.iter().map(|step| Sample {
-            altitude: step.altitude,
-            cos_view: step.cos_view,
-            weights: step.weights,
+    pub fn cut(air: &Air, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Path {
+        let mut samples = Vec::new();
+        let end = walk(air.geometry, air.optics, rule, height_km, cos_zenith, |step| {
+            samples.push(Sample {
+                altitude: Bracket::of(air.altitudes_km, step.height_km),
+                cos_view: step.cos_view,
+                weights: step.weights,
+            });
         });
-        Path {
-            samples: samples.collect(),
-            transmittance: ray.transmittance,
-            meets_ground: ray.ground_km.is_some(),
-        }
+        Path { samples, transmittance: end.transmittance, meets_ground: end.ground.is_some() }
     }
 
     /// What of the light outside arrives unscattered.
