@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use nocturne::air::Atmosphere;
 use nocturne::air::aerosol::PhaseLaw;
 use nocturne::air::scattering::above::{
-    DiffuseField, DiffuseQuality, DiffuseTables, SkyHarmonics, glowing_layer,
+    DiffuseField, DiffuseQuality, DiffuseTables, DiffuseView, SkyHarmonics, glowing_layer,
 };
 use nocturne::air::scattering::{Quality, RaySteps, ScatteringTables};
 use nocturne::units::Angle;
@@ -15,8 +15,7 @@ fn deg(deg: f64) -> Angle {
 }
 
 /// Air that absorbs nothing over ground that absorbs nothing.
-fn white(air: Atmosphere) -> Atmosphere {
-    let mut air = air.straight();
+fn white(mut air: Atmosphere) -> Atmosphere {
     air.ozone.column_du = 0.0;
     air.aerosol.single_scattering_albedo = Some(1.0);
     air.ground.albedo = 1.0;
@@ -27,9 +26,15 @@ fn even(_height_km: f64, _cos_zenith: f64) -> f64 {
     1.0
 }
 
-fn radiance(field: &DiffuseField, height_km: f64, elevation: Angle, azimuth: Angle) -> [f64; 3] {
+fn radiance(field: &DiffuseField, view: &DiffuseView, azimuth: Angle) -> [f64; 3] {
     let mut out = [0.0; 3];
-    field.radiance(height_km, elevation, azimuth, &mut out);
+    field.radiance(view, azimuth, &mut out);
+    out
+}
+
+fn transmittance(view: &DiffuseView) -> [f64; 3] {
+    let mut out = [0.0; 3];
+    view.transmittance(&mut out);
     out
 }
 
@@ -50,9 +55,9 @@ fn even_light_over_white_ground_is_even() {
         }
         for height_km in [0.0, 0.3, 3.0, 20.0, 100.0] {
             for elevation in (-90..=90).map(|e| deg(0.9999 * f64::from(e) + 0.003)) {
-                let mut direct = [0.0; 3];
-                tables.transmittance(height_km, elevation, &mut direct);
-                let scattered = radiance(&field, height_km, elevation, Angle::ZERO);
+                let view = tables.view(height_km, elevation);
+                let direct = transmittance(&view);
+                let scattered = radiance(&field, &view, Angle::ZERO);
                 for (d, s) in direct.iter().zip(scattered) {
                     let whole = d + s;
                     assert!(
@@ -80,9 +85,9 @@ fn an_even_sky_through_the_reference_air() {
         DiffuseTables::solve(&air, 0.0, &[450.0, 550.0, 650.0], DiffuseQuality::RENDER).unwrap();
     let field = tables.lit_from(even);
     for (i, elevation) in elevations.into_iter().enumerate() {
-        let mut direct = [0.0; 3];
-        tables.transmittance(0.001, deg(elevation), &mut direct);
-        let scattered = radiance(&field, 0.001, deg(elevation), Angle::ZERO);
+        let view = tables.view(0.001, deg(elevation));
+        let direct = transmittance(&view);
+        let scattered = radiance(&field, &view, Angle::ZERO);
         for (k, row) in expected.iter().enumerate() {
             let (d, s) = row[i];
             assert!((direct[k] - d).abs() < 1e-3, "{elevation}°: {direct:?}, not {d}");
@@ -114,7 +119,8 @@ fn finer_tables_change_little() {
         let air = air.straight();
         let solve = |quality| {
             let tables = DiffuseTables::solve(&air, 0.0, &[400.0, 550.0, 650.0], quality).unwrap();
-            tables.lit_from(glowing_layer(90.0))
+            let field = tables.lit_from(glowing_layer(90.0));
+            (tables, field)
         };
         let best = solve(finest);
         for (quality, within) in [(DiffuseQuality::RENDER, render), (DiffuseQuality::AXIAL, axial)]
@@ -122,7 +128,9 @@ fn finer_tables_change_little() {
             let field = solve(quality);
             for height_km in [0.0, 3.0, 20.0] {
                 for elevation in [90.0, 30.0, 10.0, 2.0, 0.5, -10.0, -50.0] {
-                    let at = |f| radiance(f, height_km, deg(elevation), Angle::ZERO);
+                    let at = |(tables, field): &(DiffuseTables, DiffuseField)| {
+                        radiance(field, &tables.view(height_km, deg(elevation)), Angle::ZERO)
+                    };
                     for (got, want) in at(&field).into_iter().zip(at(&best)) {
                         let error = got / want - 1.0;
                         assert!(error.abs() < within, "{height_km} km, {elevation}°: {error}");
@@ -154,6 +162,7 @@ fn a_sky_is_the_sum_of_its_suns() {
     const AZIMUTHS: usize = 24;
     for (height_km, elevation) in [(0.0, 90.0), (0.0, 10.0), (0.0, 2.0), (3.0, 10.0), (3.0, -10.0)]
     {
+        let view = tables.view(height_km, deg(elevation));
         let mut sums = [[0.0; 3]; 3];
         let ratio: f64 = 6371.0 / (6371.0 + height_km);
         let horizon = -(1.0 - ratio * ratio).sqrt();
@@ -182,9 +191,7 @@ fn a_sky_is_the_sum_of_its_suns() {
             }
         }
         for ((field, sums), within) in fields.iter().zip(sums).zip([0.006, 0.01, 0.006]) {
-            for (got, want) in
-                radiance(field, height_km, deg(elevation), view_azimuth).into_iter().zip(sums)
-            {
+            for (got, want) in radiance(field, &view, view_azimuth).into_iter().zip(sums) {
                 let error = got / want - 1.0;
                 assert!(error.abs() < within, "{height_km} km, {elevation}°: {got} {want}");
             }
@@ -206,11 +213,12 @@ fn harmonics_and_functions_agree_and_turn_with_the_sky() {
     let north = tables.lit_by(&SkyHarmonics::from_fn(|e, a| shape(e, a.rad())));
     let turned = tables.lit_by(&SkyHarmonics::from_fn(|e, a| shape(e, a.rad() - deg(70.0).rad())));
     for (e, a) in [(90.0, 0.0), (20.0, 33.0), (1.0, 190.0), (-30.0, 300.0)] {
+        let view = tables.view(0.5, deg(e));
         let [f, h, n, t] = [
-            radiance(&by_function, 0.5, deg(e), deg(a)),
-            radiance(&by_harmonics, 0.5, deg(e), deg(a)),
-            radiance(&north, 0.5, deg(e), deg(a)),
-            radiance(&turned, 0.5, deg(e), deg(a + 70.0)),
+            radiance(&by_function, &view, deg(a)),
+            radiance(&by_harmonics, &view, deg(a)),
+            radiance(&north, &view, deg(a)),
+            radiance(&turned, &view, deg(a + 70.0)),
         ];
         for i in 0..3 {
             assert!((f[i] / h[i] - 1.0).abs() < 1e-5, "{e}° {a}°: {f:?} {h:?}");

@@ -290,7 +290,7 @@ mod tests {
         };
         for haze in [0.0, 0.1] {
             air.aerosol.optical_depth_550 = haze;
-            air.aerosol.single_scattering_albedo = 1.0;
+            air.aerosol.single_scattering_albedo = Some(1.0);
             for (height_km, elevation_deg) in [(0.001, 90.0), (0.001, 5.0), (20.0, -30.0)] {
                 for got in under_even_light(&air, height_km, elevation_deg) {
                     let off = (got.total() - 1.0).abs();

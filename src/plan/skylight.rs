@@ -139,5 +139,5 @@ fn dark_sky(night: &Night, horizon: Angle) -> Result<Vec<Xyzv>, ScatteringError>
     let dark = NightSky::default().through(&night.air, night.sky.place.height_m)?;
     let elevations: Vec<Angle> =
         (0..SKY_SHAPE.rows()).map(|row| SKY_SHAPE.elevation_beside(row, horizon)).collect();
-    Ok(dark.luminances(&elevations))
+    Ok(dark.luminances(night.air.eye_km(night.sky.place.height_m), &elevations))
 }

@@ -30,15 +30,14 @@ mod path;
 mod sky;
 
 use self::operator::{MOLECULAR_DEGREE, Nodes, Operators, Rule, reflectance};
-use self::path::{Medium, Path};
+use self::path::{Air, Path};
 pub use self::sky::SkyHarmonics;
 use super::ScatteringError;
 use super::field::altitude_grid_km;
 use super::lanes::{LANES, Lanes};
-use super::profile::{EARTH_RADIUS_KM, Optics, Profile, SCATTERERS, TOP_KM, WAVELENGTH_RANGE_NM};
+use super::profile::{Optics, SCATTERERS, TOP_KM, WAVELENGTH_RANGE_NM};
 use super::rays::{Geometry, RaySteps};
-use crate::air::Atmosphere;
-use crate::air::phase;
+use crate::air::{Atmosphere, EARTH_RADIUS_KM, phase};
 use crate::units::Angle;
 
 /// Where aerosol scatters less than this part of what molecules do, their degrees suffice.
@@ -156,9 +155,9 @@ impl DiffuseTables {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let ground_km = air.ground_km(observer_height_m);
-        // What is bent by some arcminutes comes from skies that are as even there.
-        let geometry = Geometry { profile: Profile::new(air), ground_km, refractivity: 0.0 };
+        let geometry = Geometry::of(air, observer_height_m);
+        // As for light of the Sun: the field is solved along straight rays, and seen along bent ones.
+        let straight = geometry.straight();
         let density_ratio = air.density_ratio_at(observer_height_m);
         let bands = wavelengths_nm
             .chunks(LANES)
@@ -166,10 +165,10 @@ impl DiffuseTables {
                 let optics = Optics::new(air, density_ratio, chunk);
                 let nodes = nodes(air, &geometry, &optics, chunk, &quality);
                 let altitudes_km = nodes.altitudes_km.clone();
-                let medium = medium(&geometry, &optics, &altitudes_km);
+                let air = Air { geometry: &straight, optics: &optics, altitudes_km: &altitudes_km };
                 let rule =
                     Rule { above: quality.above, below: quality.below, steps: quality.steps };
-                let operators = Operators::new(&medium, nodes, &rule, quality.order);
+                let operators = Operators::new(&air, nodes, &rule, quality.order);
                 Band { optics, operators }
             })
             .collect();
@@ -215,31 +214,40 @@ impl DiffuseTables {
         DiffuseField { bands: bands.collect(), air: self.solved.clone() }
     }
 
-    /// What part of the light outside arrives unscattered, each wavelength; 0 if the ground is in
-    /// the way.
-    pub fn transmittance(&self, height_km: f64, view_elevation: Angle, out: &mut [f64]) {
-        for (band, out) in self.solved.bands.iter().zip(out.chunks_mut(LANES)) {
-            let path = self.solved.path(band, height_km, view_elevation);
+    /// The ray of a view, cut once for all skies: from a height, which is clamped to the air, in an
+    /// apparent elevation.
+    pub fn view(&self, height_km: f64, view_elevation: Angle) -> DiffuseView {
+        let paths = self.solved.bands.iter().map(|band| {
+            let height_km = height_km.clamp(self.solved.geometry.ground_km, TOP_KM);
+            let rule = &self.solved.view;
+            Path::cut(&self.solved.air(band), rule, height_km, view_elevation.sin())
+        });
+        DiffuseView { paths: paths.collect() }
+    }
+}
+
+/// The ray of a view.
+#[derive(Debug, Clone)]
+pub struct DiffuseView {
+    /// By band.
+    paths: Vec<Path>,
+}
+
+impl DiffuseView {
+    /// What part of the light outside arrives unscattered, each wavelength; 0 if the ground is in the
+    /// way.
+    pub fn transmittance(&self, out: &mut [f64]) {
+        for (path, out) in self.paths.iter().zip(out.chunks_mut(LANES)) {
             out.iter_mut().zip(path.from_space().0).for_each(|(out, t)| *out = f64::from(t));
         }
     }
 }
 
 impl Solved {
-    fn path(&self, band: &Band, height_km: f64, view_elevation: Angle) -> Path {
-        let nodes = &band.operators.nodes;
-        let medium = medium(&self.geometry, &band.optics, &nodes.altitudes_km);
-        Path::cut(
-            &medium,
-            &self.view,
-            height_km.clamp(self.geometry.ground_km, TOP_KM),
-            view_elevation.sin(),
-        )
+    fn air<'a>(&'a self, band: &'a Band) -> Air<'a> {
+        let altitudes_km = &band.operators.nodes.altitudes_km;
+        Air { geometry: &self.geometry, optics: &band.optics, altitudes_km }
     }
-}
-
-fn medium<'a>(geometry: &'a Geometry, optics: &'a Optics, altitudes_km: &'a [f64]) -> Medium<'a> {
-    Medium { geometry, optics, altitudes_km }
 }
 
 /// Heights of the field; high degrees only where aerosol scatters next to them.
@@ -297,21 +305,18 @@ pub struct DiffuseField {
 }
 
 impl DiffuseField {
-    /// Radiance of the air and of the ground, each wavelength, in the unit of the sky. What comes
-    /// straight from the sky is not in it: that is the sky times [`DiffuseTables::transmittance`].
-    ///
-    /// The height is clamped to that of the air; the azimuth is that of the harmonics.
-    pub fn radiance(&self, height_km: f64, view_elevation: Angle, azimuth: Angle, out: &mut [f64]) {
-        for ((band, orders), out) in
-            self.air.bands.iter().zip(&self.bands).zip(out.chunks_mut(LANES))
-        {
-            let path = self.air.path(band, height_km, view_elevation);
+    /// Radiance of the air and of the ground along a view, each wavelength, in the unit of the sky.
+    /// What comes straight from the sky is not in it: that is the sky times
+    /// [`DiffuseView::transmittance`]. The azimuth is that of the harmonics.
+    pub fn radiance(&self, view: &DiffuseView, azimuth: Angle, out: &mut [f64]) {
+        let bands = self.air.bands.iter().zip(&self.bands).zip(&view.paths);
+        for (((band, orders), path), out) in bands.zip(out.chunks_mut(LANES)) {
             let nodes = &band.operators.nodes;
             let mut sum = Lanes::ZERO;
             for (m, (field, operator)) in orders.iter().zip(&band.operators.orders).enumerate() {
                 let (sine, cosine) = (m as f64 * azimuth.rad()).sin_cos();
                 let (sine, cosine) = (sine as f32, cosine as f32);
-                operator.layout.along(nodes, &path, |place, weight| {
+                operator.layout.along(nodes, path, |place, weight| {
                     let mut moment = field.cos[place] * cosine;
                     if let Some(sin) = &field.sin {
                         moment += sin[place] * sine;
@@ -319,8 +324,8 @@ impl DiffuseField {
                     sum += weight * moment;
                 });
                 if let (true, Some(ground)) = (path.meets_ground, operator.layout.ground) {
-                    let medium = medium(&self.air.geometry, &band.optics, &nodes.altitudes_km);
-                    sum += path.transmittance * field.cos[ground] * reflectance(&medium);
+                    sum +=
+                        path.transmittance * field.cos[ground] * reflectance(&self.air.air(band));
                 }
             }
             out.iter_mut().zip(sum.0).for_each(|(out, value)| *out = f64::from(value));

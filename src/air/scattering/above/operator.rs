@@ -15,7 +15,8 @@ use super::super::lanes::{LANES, Lanes};
 use super::super::profile::SCATTERERS;
 use super::super::rays::RaySteps;
 use super::legendre::Legendre;
-use super::path::{Medium, Path};
+use super::path::{Air, Path};
+use crate::air::EARTH_RADIUS_KM;
 
 /// The degree that molecules ask for.
 pub(super) const MOLECULAR_DEGREE: usize = 2;
@@ -130,7 +131,7 @@ pub(super) struct Rule {
 
 impl Operators {
     /// For the orders up to one.
-    pub fn new(medium: &Medium, nodes: Nodes, rule: &Rule, order: usize) -> Operators {
+    pub fn new(air: &Air, nodes: Nodes, rule: &Rule, order: usize) -> Operators {
         let layouts: Vec<Layout> = (0..=order).map(|m| Layout::new(&nodes, m)).collect();
         let (above, below) = (gauss_legendre(rule.above), gauss_legendre(rule.below));
         let per_altitude: Vec<(Vec<Spoke>, Vec<Rows>)> = (0..nodes.altitudes_km.len())
@@ -140,7 +141,8 @@ impl Operators {
                 let mut rows: Vec<Rows> =
                     layouts.iter().map(|layout| Rows::new(layout, altitude)).collect();
                 // Dense next to the horizon, on both sides of it.
-                let horizon = medium.geometry.cos_horizon(height_km);
+                let ratio = air.geometry.ground_radius_km() / (EARTH_RADIUS_KM + height_km);
+                let horizon = -(1.0 - ratio * ratio).max(0.0).sqrt();
                 let up = above.iter().map(|&(t, w)| (1.0 - horizon, t, w));
                 let down = below.iter().map(|&(t, w)| (-1.0 - horizon, t, w));
                 let spokes = up
@@ -148,9 +150,9 @@ impl Operators {
                     .map(|(span, t, w)| {
                         let cos_zenith = horizon + span * t * t;
                         let width = span.abs() * 2.0 * t * w;
-                        let path = Path::cut(medium, &rule.steps, height_km, cos_zenith);
+                        let path = Path::cut(air, &rule.steps, height_km, cos_zenith);
                         for (rows, layout) in rows.iter_mut().zip(&layouts) {
-                            rows.add(layout, &nodes, medium, &path, cos_zenith, width);
+                            rows.add(layout, &nodes, air, &path, cos_zenith, width);
                         }
                         Spoke { altitude, cos_zenith, width, from_space: path.from_space() }
                     })
@@ -227,7 +229,7 @@ impl Rows {
         &mut self,
         layout: &Layout,
         nodes: &Nodes,
-        medium: &Medium,
+        air: &Air,
         path: &Path,
         cos_zenith: f64,
         width: f64,
@@ -239,7 +241,7 @@ impl Rows {
         radiance.fill(Lanes::ZERO);
         layout.along(nodes, path, |place, weight| radiance[place] += weight);
         if let (true, Some(ground)) = (path.meets_ground, layout.ground) {
-            radiance[ground] += path.transmittance * reflectance(medium);
+            radiance[ground] += path.transmittance * reflectance(air);
         }
         let solid_angle = width * layout.legendre.azimuth_norm();
         let count = layout.degrees(self.altitude);
@@ -260,8 +262,8 @@ impl Rows {
 }
 
 /// Radiance of the ground per unit irradiance, sr^-1.
-pub(super) fn reflectance(medium: &Medium) -> f32 {
-    (medium.optics.ground_albedo / std::f64::consts::PI) as f32
+pub(super) fn reflectance(air: &Air) -> f32 {
+    (air.optics.ground_albedo / std::f64::consts::PI) as f32
 }
 
 impl Operator {

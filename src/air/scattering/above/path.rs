@@ -24,21 +24,20 @@ pub(super) struct Path {
     pub meets_ground: bool,
 }
 
-/// What a ray is cut in.
+/// What a path is cut in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Medium<'a> {
+pub(super) struct Air<'a> {
     pub geometry: &'a Geometry,
     pub optics: &'a Optics,
     pub altitudes_km: &'a [f64],
 }
 
 impl Path {
-    pub fn cut(medium: &Medium, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Path {
+    pub fn cut(air: &Air, rule: &RaySteps, height_km: f64, cos_zenith: f64) -> Path {
         let mut samples = Vec::new();
-        let start = (height_km, cos_zenith);
-        let end = walk(medium.geometry, medium.optics, rule, start, |step| {
+        let end = walk(air.geometry, air.optics, rule, (height_km, cos_zenith), |step| {
             samples.push(Sample {
-                altitude: Bracket::of(medium.altitudes_km, step.height_km),
+                altitude: Bracket::of(air.altitudes_km, step.height_km),
                 cos_view: step.cos_view,
                 weights: step.weights,
             });
