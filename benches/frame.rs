@@ -14,15 +14,19 @@ use nocturne::camera::Camera;
 use nocturne::catalog::{Catalogs, MoonMap};
 use nocturne::ephemeris::Ephemeris;
 use nocturne::eye::Eye;
+use nocturne::frame::Dir;
 use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
 use nocturne::light::star_light::StarLight;
-use nocturne::plan::lay::lay;
-use nocturne::plan::{FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, Splat};
+use nocturne::light::sun;
+use nocturne::plan::lay::lay_in;
+use nocturne::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
+use nocturne::plan::{FramePlan, SkyPlan, Splat};
 use nocturne::render::Renderer;
+use nocturne::render::sky_tiles::{SkyDetail, tiles};
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
-use nocturne::units::{Angle, Xyzv};
+use nocturne::units::{AU_KM, Angle};
 
 /// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
 const SKIES: [(&str, &str); 3] = [
@@ -62,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let trivial_ms = passes(&renderer, &empty(night.camera))?.of("sky");
         println!("{width_px}x{height_px}: trivial pass {trivial_ms:.2} ms");
         let line = |name: &str, pass: &str, ms: f64| {
-            println!("  {name:24} {pass:12} {ms:9.2} ms {:7.2}", ms / trivial_ms);
+            println!("  {name:24} {pass:20} {ms:9.2} ms {:7.2}", ms / trivial_ms);
         };
         for (name, plan) in &of_size {
             let cost = passes(&renderer, plan)?;
@@ -70,6 +74,17 @@ fn main() -> Result<(), Box<dyn Error>> {
                 line(name, pass, *ms);
             }
             line(name, "with the way back", cost.wall_ms);
+            let cut = || tiles(&plan.sky, &plan.camera, SkyDetail::Tiles);
+            line(name, "cutting tiles, CPU", median_ms(FRAMES, cut));
+            let exact: u32 = cut().exact.iter().map(|[x0, y0, x1, y1]| (x1 - x0) * (y1 - y0)).sum();
+            let share = f64::from(exact) / f64::from(width_px * plan.camera.height_px);
+            println!(
+                "  {name:24} {} smooth tiles, {:.1} % of the pixels exact",
+                cut().smooth.len(),
+                100.0 * share
+            );
+            let every_pixel = passes_with(&renderer, plan, SkyDetail::EveryPixel)?.of("sky");
+            line(name, "sky, every pixel", every_pixel);
         }
         for count in SPLATS {
             let splats: Vec<Splat> = night.splats.iter().copied().cycle().take(count).collect();
@@ -90,9 +105,17 @@ fn computations() {
         || ScatteringTables::solve(&air, &SKY_NODES_NM, Quality::RENDER).expect("the default air");
     println!("  ScatteringTables::solve {:10.1}", median_ms(SLOW, solve));
     let tables = solve();
+    let rays = tables.sky_rays(0.002, COMPUTED_SHAPE);
     for sun_deg in [40.0f64, -6.0] {
-        let view = || tables.sky_view(0.0, sun_deg.to_radians().sin(), SKY_AZIMUTHS, SKY_ALTITUDES);
+        let view = || tables.sky_view(&rays, sun_deg.to_radians().sin());
         println!("  sky_view, Sun at {sun_deg:3}° {:9.1}", median_ms(SLOW, view));
+    }
+    let solved = SolvedAir::solve(&air, 0.0).expect("the default air");
+    let sun = sun::irradiance(AU_KM);
+    for sun_deg in [40.0, -6.0] {
+        let dir = Dir::from_azimuth_altitude(Angle::ZERO, Angle::from_deg(sun_deg));
+        let moved = || solved.sky(dir, &sun);
+        println!("  moving the Sun to {sun_deg:3}° {:6.1}", median_ms(SLOW, moved));
     }
     let starlight = || StarLight::new(&Atmosphere::default(), 0.0);
     println!("  StarLight::new {:19.1}", median_ms(SLOW, starlight));
@@ -118,7 +141,9 @@ fn plan(
     )?;
     let light = || Night::of(sky.clone(), stars.clone(), &air);
     let night = light();
-    let lay = || lay(&setting, &layers, &night, || Ok(moon_map.clone()));
+    let mut solved = None;
+    // The air is solved once; what follows is what a second frame takes.
+    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_map.clone()), &mut solved);
     let (plan, _) = lay()?;
     println!(
         "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",
@@ -155,12 +180,7 @@ fn setting(utc: &str, width_px: u32, height_px: u32) -> Result<Setting, Box<dyn 
 
 /// A plan without any light.
 fn empty(camera: Camera) -> FramePlan {
-    let sky = SkyPlan {
-        sun: None,
-        moon: None,
-        dark: vec![Xyzv::BLACK; SKY_ALTITUDES],
-        ground: Xyzv::BLACK,
-    };
+    let sky = SkyPlan::black(Angle::ZERO);
     FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
 }
 
@@ -179,11 +199,19 @@ impl Cost {
 }
 
 fn passes(renderer: &Renderer, plan: &FramePlan) -> Result<Cost, Box<dyn Error>> {
+    passes_with(renderer, plan, SkyDetail::Tiles)
+}
+
+fn passes_with(
+    renderer: &Renderer,
+    plan: &FramePlan,
+    detail: SkyDetail,
+) -> Result<Cost, Box<dyn Error>> {
     let mut runs = Vec::new();
-    renderer.frame(plan)?;
+    renderer.frame_with(plan, detail)?;
     for _ in 0..FRAMES {
         let start = Clock::now();
-        let times = renderer.frame(plan)?.times;
+        let times = renderer.frame_with(plan, detail)?.times;
         runs.push((start.elapsed().as_secs_f64() * 1e3, times));
     }
     let of_pass = |number: usize| median(runs.iter().map(|run| run.1[number].milliseconds));

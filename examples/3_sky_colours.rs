@@ -16,6 +16,8 @@ use nocturne::units::Angle;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let greenwich = Place::new(51.478, 0.0, 47.0)?;
+    // The air is solved once for all times.
+    let mut solved = None;
     // What is compiled in is good enough for colours.
     let ephemeris = Ephemeris::analytic();
     // Around the equinox the Sun sets at six; five times of one evening.
@@ -25,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let sun = sky.sun.dir;
         let night = Night::of(sky, Vec::new(), &Atmosphere::default());
         let (with_sun, with_moon) = (true, false);
-        let plan = sky_plan(&night, with_sun, with_moon)?;
+        let plan = sky_plan(&night, with_sun, with_moon, &mut solved)?;
 
         println!("Sun at {:.1}°: luminance in cd/m2, chromaticity x y", sun.altitude().deg());
         // From the horizon below the Sun over the zenith to the horizon on the other side.

@@ -128,6 +128,7 @@ impl Studio {
             },
             layers: Layers::default(),
             air: self.air.clone(),
+            sky: None,
             eye: Eye::default(),
             marks: Marks { horizon: false, cardinal_points: false },
         }

@@ -6,15 +6,15 @@ mod support;
 
 use glam::DMat3;
 use libtest_mimic::Failed;
+use nocturne::air::Atmosphere;
+use nocturne::air::scattering::{Phase, SkyView};
 use nocturne::camera::{Camera, Projection};
 use nocturne::frame::{Apparent, Dir, Horizon};
 use nocturne::image::HdrFrame;
 use nocturne::plan::disc::{AlbedoMap, Disc, DiscNode, DiscShape, NODES, SurfaceLaw};
-use nocturne::plan::{
-    FramePlan, SKY_ALTITUDES, SKY_AZIMUTHS, SkyPlan, SourceSky, Splat, sky_table_altitude,
-    sky_table_azimuth,
-};
+use nocturne::plan::{FramePlan, SKY_SHAPE, SkyPlan, SourceSky, Splat};
 use nocturne::render::Renderer;
+use nocturne::render::sky_tiles::{SkyDetail, tiles};
 use nocturne::units::{Angle, Xyzv};
 use support::{GpuTest, check};
 
@@ -32,6 +32,8 @@ fn main() {
         GpuTest::new("splats_conserve_flux_and_place", splats_conserve_flux_and_place),
         GpuTest::new("an_empty_plan_is_black", an_empty_plan_is_black),
         GpuTest::new("the_sky_is_looked_up_where_the_camera_looks", the_sky_table_is_looked_up),
+        GpuTest::new("the_sky_of_the_gpu_is_its_twins", the_sky_is_its_twins),
+        GpuTest::new("tiles_differ_little_from_every_pixel", tiles_are_close),
         GpuTest::new("discs_conserve_flux_at_any_size", discs_conserve_flux_at_any_size),
         GpuTest::new("the_moon_is_lit_from_the_sun_and_upright", the_moon_is_lit_from_the_sun),
         GpuTest::new("the_frame_holds_a_faint_sky_and_the_sun", the_frame_holds_a_faint_sky),
@@ -51,12 +53,7 @@ fn camera(projection: Projection, fov_deg: f64, width_px: u32, height_px: u32) -
 }
 
 fn dark_plan(camera: Camera) -> FramePlan {
-    let sky = SkyPlan {
-        sun: None,
-        moon: None,
-        dark: vec![Xyzv::BLACK; SKY_ALTITUDES],
-        ground: Xyzv::BLACK,
-    };
+    let sky = SkyPlan::black(Angle::ZERO);
     FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
 }
 
@@ -127,28 +124,34 @@ fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
     // Tables that hold their own coordinates: X the azimuth from the Sun, Y that from the Moon,
     // Z the altitude, all in degrees.
     let (sun_azimuth, moon_azimuth) = (Angle::from_deg(75.0), Angle::from_deg(290.0));
-    let table = |channel: fn(f64) -> Xyzv| -> Vec<Xyzv> {
-        let azimuths = (0..SKY_AZIMUTHS).map(|column| channel(sky_table_azimuth(column).deg()));
-        std::iter::repeat_n(azimuths.collect::<Vec<_>>(), SKY_ALTITUDES).flatten().collect()
+    let source = |azimuth: Angle, channel: fn(f32) -> [f32; 4]| SourceSky {
+        azimuth,
+        view: SkyView {
+            smooth: (0..SKY_SHAPE.nodes())
+                .flat_map(|node| channel(SKY_SHAPE.azimuth(node % SKY_SHAPE.azimuths).deg() as f32))
+                .collect(),
+            ..black_view(Angle::ZERO)
+        },
+    };
+    let dark = |row: usize| {
+        let altitude = SKY_SHAPE.elevation(row, Angle::ZERO).deg();
+        if SKY_SHAPE.is_above(row) {
+            Xyzv::new(0.0, 0.0, altitude, 1.0)
+        } else {
+            Xyzv::new(-1.0, -1.0, -1.0, 2.0)
+        }
     };
     let sky = SkyPlan {
-        sun: Some(SourceSky {
-            azimuth: sun_azimuth,
-            luminance: table(|a| Xyzv::new(a, 0.0, 0.0, 0.0)),
-        }),
-        moon: Some(SourceSky {
-            azimuth: moon_azimuth,
-            luminance: table(|a| Xyzv::new(0.0, a, 0.0, 0.0)),
-        }),
-        dark: (0..SKY_ALTITUDES)
-            .map(|row| Xyzv::new(0.0, 0.0, sky_table_altitude(row).deg(), 1.0))
-            .collect(),
-        ground: Xyzv::new(-1.0, -1.0, -1.0, 2.0),
+        horizon: Angle::ZERO,
+        sun: Some(source(sun_azimuth, |a| [a, 0.0, 0.0, 0.0])),
+        moon: Some(source(moon_azimuth, |a| [0.0, a, 0.0, 0.0])),
+        dark: (0..SKY_SHAPE.rows()).map(dark).collect(),
     };
     for (projection, fov_deg) in PROJECTIONS {
         let camera = camera(projection, fov_deg, 320, 180);
         let plan = FramePlan { sky: sky.clone(), ..dark_plan(camera) };
-        let frame = drawn(renderer, &plan)?;
+        let detail = SkyDetail::EveryPixel;
+        let frame = renderer.frame_with(&plan, detail).map_err(|error| error.to_string())?.frame;
         for (x, y) in [(5u32, 3u32), (160, 90), (300, 20), (40, 120), (250, 170), (160, 179)] {
             let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
             let Some(view) = camera.view_from_pixel(pixel) else {
@@ -181,6 +184,129 @@ fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
                 )
             })?;
         }
+    }
+    Ok(())
+}
+
+fn black_view(source_elevation: Angle) -> SkyView {
+    SkyView {
+        shape: SKY_SHAPE,
+        horizon: Angle::ZERO,
+        source_elevation,
+        channels: 4,
+        smooth: vec![0.0; 4 * SKY_SHAPE.nodes()],
+        haze: Vec::new(),
+        phase: None,
+    }
+}
+
+/// A sky with haze, in the shapes that skies have: bright at the horizon and around the source,
+/// darkest a right angle away from it.
+fn hazy_sky(sun_azimuth: Angle, sun_elevation: Angle) -> SkyPlan {
+    let horizon = Angle::from_deg(-0.045);
+    let light = |node: usize| -> [f32; 4] {
+        let (row, column) = (node / SKY_SHAPE.azimuths, node % SKY_SHAPE.azimuths);
+        let elevation = SKY_SHAPE.elevation(row, horizon);
+        let nu = elevation.sin() * sun_elevation.sin()
+            + elevation.cos() * sun_elevation.cos() * SKY_SHAPE.azimuth(column).cos();
+        let airmass = 1.0 / (elevation.sin().abs() + 0.05);
+        [1.0, 1.1, 1.6, 2.0].map(|colour: f64| {
+            let sky = (1.0 - (-0.1 * colour * airmass).exp()) * (1.0 + nu * nu);
+            (1e3 * if SKY_SHAPE.is_above(row) { sky } else { 0.1 + 0.3 * sky }) as f32
+        })
+    };
+    let smooth: Vec<f32> = (0..SKY_SHAPE.nodes()).flat_map(light).collect();
+    let mut air = Atmosphere::default();
+    air.aerosol.asymmetry = 0.85;
+    let source = |azimuth: Angle, elevation: Angle, share: f32| SourceSky {
+        azimuth,
+        view: SkyView {
+            smooth: smooth.iter().map(|value| value * share).collect(),
+            haze: smooth.iter().map(|value| 0.5 * value * share).collect(),
+            phase: Phase::of(&air),
+            horizon,
+            ..black_view(elevation)
+        },
+    };
+    SkyPlan {
+        horizon,
+        sun: Some(source(sun_azimuth, sun_elevation, 1.0)),
+        moon: Some(source(sun_azimuth + Angle::from_deg(100.0), Angle::from_deg(20.0), 0.3)),
+        dark: vec![Xyzv::new(1.0, 1.0, 1.0, 2.0); SKY_SHAPE.rows()],
+    }
+}
+
+/// The largest relative difference of two lights, in any of X, Y, Z and V.
+fn difference(a: Xyzv, b: Xyzv) -> f64 {
+    [(a.x, b.x), (a.y, b.y), (a.z, b.z), (a.v, b.v)]
+        .map(|(a, b)| (a / b - 1.0).abs())
+        .into_iter()
+        .fold(0.0, f64::max)
+}
+
+fn the_sky_is_its_twins(renderer: &Renderer) -> Result<(), Failed> {
+    let sun = (Angle::from_deg(140.0), Angle::from_deg(30.0));
+    let sky = hazy_sky(sun.0, sun.1);
+    let mut dirs: Vec<Dir<Apparent>> = (0..2000)
+        .map(|i| {
+            let sine = 1.0 - (2.0 * f64::from(i) + 1.0) / 2000.0;
+            let azimuth = Angle::from_deg(137.507_764 * f64::from(i));
+            Dir::from_azimuth_altitude(azimuth, Angle::from_rad(sine.asin()))
+        })
+        .collect();
+    // The aureole, down to the centre.
+    let beside = |degrees: f64| Dir::from_azimuth_altitude(sun.0 + Angle::from_deg(degrees), sun.1);
+    dirs.extend([0.0, 0.01, 0.1, 0.3, 1.0, 3.0].map(beside));
+    let lights = renderer.sky_in(&sky, &dirs).map_err(|error| error.to_string())?;
+    check(lights.len() == dirs.len(), || format!("{} lights", lights.len()))?;
+    for (dir, light) in dirs.iter().zip(lights) {
+        let twin = sky.luminance(*dir);
+        let error = difference(light, twin);
+        check(error < 2e-4, || format!("{dir:?}: {light:?}, its twin {twin:?}"))?;
+    }
+    Ok(())
+}
+
+fn tiles_are_close(renderer: &Renderer) -> Result<(), Failed> {
+    for (projection, fov_deg, altitude_deg) in [
+        (Projection::Perspective, 60.0, 5.0),
+        (Projection::Perspective, 1.0, 0.1),
+        (Projection::Stereographic, 120.0, 35.0),
+        (Projection::Equidistant, 180.0, 90.0),
+        (Projection::EqualArea, 220.0, 60.0),
+        (Projection::Equirectangular, 360.0, 0.0),
+    ] {
+        let mut camera = camera(projection, fov_deg, 960, 540);
+        camera.altitude = Angle::from_deg(altitude_deg);
+        let sky = hazy_sky(Angle::from_deg(140.0), Angle::from_deg(25.0));
+        let plan = FramePlan { sky, ..dark_plan(camera) };
+        let cut = tiles(&plan.sky, &camera, SkyDetail::Tiles);
+        let area = |[x0, y0, x1, y1]: &[u32; 4]| f64::from((x1 - x0) * (y1 - y0)) / (960.0 * 540.0);
+        let exact: f64 = cut.exact.iter().map(area).sum();
+        check(exact < 0.5 && !cut.smooth.is_empty(), || {
+            format!("{projection:?} {fov_deg}: {exact} of the picture is exact")
+        })?;
+        let draw = |detail| renderer.frame_with(&plan, detail).map_err(|error| error.to_string());
+        let (tiled, every) = (draw(SkyDetail::Tiles)?.frame, draw(SkyDetail::EveryPixel)?.frame);
+        let mut worst = (0.0, 0, 0);
+        for y in 0..540 {
+            for x in 0..960 {
+                if every.at(x, y) == [0.0; 4] {
+                    check(tiled.at(x, y) == [0.0; 4], || {
+                        format!("{projection:?}: {x} {y} is lit")
+                    })?;
+                    continue;
+                }
+                let error = difference(tiled.xyzv(x, y), every.xyzv(x, y));
+                if error > worst.0 {
+                    worst = (error, x, y);
+                }
+            }
+        }
+        check(worst.0 < 2e-3, || {
+            let (error, x, y) = worst;
+            format!("{projection:?} {fov_deg}: {error} at {x} {y}; {exact} of the pixels exact")
+        })?;
     }
     Ok(())
 }

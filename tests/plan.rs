@@ -2,13 +2,14 @@
 
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::Ephemeris;
+use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
 use nocturne::plan::lay::lay;
 use nocturne::plan::ledger::Ledger;
-use nocturne::plan::{FramePlan, SKY_AZIMUTHS, skylight};
+use nocturne::plan::{FramePlan, SKY_SHAPE, skylight};
 use nocturne::scene::Scene;
 use nocturne::sky::{BodyState, SkyState};
-use nocturne::units::Xyzv;
+use nocturne::units::{Angle, Xyzv};
 
 const FLAGSTAFF: &str = r#"
 nocturne_scene = 1
@@ -66,7 +67,7 @@ fn a_moonless_night_builds_no_table_and_reads_no_map() {
     assert_eq!(counted, 9096);
     assert!(stars.drawn > 1500, "{stars:?}");
     // The dark sky has the brightness that it is said to have in the zenith.
-    let zenith = plan.sky.dark[plan.sky.dark.len() - 1].y;
+    let zenith = plan.sky.luminance(down_by(-90.0)).y;
     assert!((zenith / 1.71e-4 - 1.0).abs() < 0.02, "{zenith}");
 }
 
@@ -90,7 +91,7 @@ fn the_full_moon_takes_stars_away_and_lights_the_air() {
     assert!(plan.sky.moon.is_some() && plan.sky.sun.is_none());
     assert_eq!(ledger.of("Moon").unwrap().drawn, 1);
     // A full Moon half-way up gives some tenths of a lux, and ground of albedo 0.1 shows it.
-    let ground = plan.sky.ground.y;
+    let ground = plan.sky.luminance(down_by(90.0)).y;
     assert!((0.002..0.01).contains(&ground), "{ground}");
 }
 
@@ -103,7 +104,7 @@ fn what_is_switched_off_is_not_there() {
     scene.layers.ground = false;
     let (plan, ledger, _) = laid(&scene);
     assert!(plan.splats.is_empty());
-    assert!(plan.sky.dark.iter().all(|light| light.y == 0.0) && plan.sky.ground.y == 0.0);
+    assert!(plan.sky.dark.iter().all(|light| light.y == 0.0));
     assert_eq!(skipped(&ledger, "stars", "switched off"), 9096);
     scene.layers.stars = true;
     scene.layers.magnitude_limit = Some(2.0);
@@ -143,9 +144,15 @@ fn the_moon_hides_what_stands_behind_it() {
     assert!(brightest < 1.0, "{brightest} lx is the Sun's: {ledger:?}");
 }
 
+/// An apparent direction so many degrees below the horizontal.
+fn down_by(degrees: f64) -> Dir<Apparent> {
+    Dir::from_azimuth_altitude(Angle::from_deg(50.0), Angle::from_deg(-degrees))
+}
+
 /// The largest share that a source's light has of the rest of the sky, over both tables.
 fn largest_share(of: &[Xyzv], among: impl Fn(usize) -> f64) -> f64 {
-    of.iter().enumerate().map(|(texel, light)| light.y / among(texel)).fold(0.0, f64::max)
+    let sky = &of[..SKY_SHAPE.above * SKY_SHAPE.azimuths];
+    sky.iter().enumerate().map(|(texel, light)| light.y / among(texel)).fold(0.0, f64::max)
 }
 
 /// The first instant of a day, in steps of two minutes, that has a property.
@@ -171,30 +178,83 @@ fn what_is_skipped_could_not_have_been_seen() {
     let dusk = first(&mut at("2026-01-18T00:00:00Z"), |night| {
         altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let sky = skylight::sky_plan(&dusk, true, false).unwrap();
-    let sun = &sky.sun.as_ref().unwrap().luminance;
-    let share = largest_share(sun, |texel| sky.dark[texel / SKY_AZIMUTHS].y);
+    let sky = skylight::sky_plan(&dusk, true, false, &mut None).unwrap();
+    let sun = sky.sun.as_ref().unwrap().luminance();
+    let share = largest_share(&sun, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
     assert!(share < 0.02, "sunlit air at its floor: {share} of the dark sky");
     // A bright Moon at the floor of its table, against the dark sky.
     let moonset = first(&mut at("2026-08-24T04:00:00Z"), |night| {
         altitude(&night.sky.moon.state) < skylight::MOON_SKY_FLOOR
             && altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let sky = skylight::sky_plan(&moonset, false, true).unwrap();
-    let moon = &sky.moon.as_ref().unwrap().luminance;
-    let share = largest_share(moon, |texel| sky.dark[texel / SKY_AZIMUTHS].y);
+    let sky = skylight::sky_plan(&moonset, false, true, &mut None).unwrap();
+    let moon = sky.moon.as_ref().unwrap().luminance();
+    let share = largest_share(&moon, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
     assert!(share < 0.02, "moonlit air at its floor: {share} of the dark sky");
     // The full Moon of dusk against the twilight behind it.
     let rising = first(&mut at("2026-08-28T01:30:00Z"), |night| {
         altitude(&night.sky.sun) < skylight::MOON_SKY_SUN_LIMIT
     });
-    let sky = skylight::sky_plan(&rising, true, true).unwrap();
-    let sun = &sky.sun.as_ref().unwrap().luminance;
+    let sky = skylight::sky_plan(&rising, true, true, &mut None).unwrap();
+    let sun = sky.sun.as_ref().unwrap().luminance();
     // The Moon stands opposite the Sun, so that its columns count from the other end.
     let opposite = |texel: usize| {
-        texel / SKY_AZIMUTHS * SKY_AZIMUTHS + SKY_AZIMUTHS - 1 - texel % SKY_AZIMUTHS
+        texel / SKY_SHAPE.azimuths * SKY_SHAPE.azimuths + SKY_SHAPE.azimuths
+            - 1
+            - texel % SKY_SHAPE.azimuths
     };
-    let moon = &sky.moon.as_ref().unwrap().luminance;
-    let share = largest_share(moon, |texel| sun[opposite(texel)].y);
+    let moon = sky.moon.as_ref().unwrap().luminance();
+    let share = largest_share(&moon, |texel| sun[opposite(texel)].y);
     assert!(share < 0.002, "moonlit air in twilight: {share} of the twilight");
+}
+
+#[test]
+fn no_picture_ends_in_a_black_half() {
+    // Noon, dusk, and a night without a Moon: the ground is lit, and less than the sky is.
+    for utc in ["2026-01-18T19:30:00Z", "2026-01-18T01:10:00Z", "2026-01-18T06:00:00Z"] {
+        let (plan, _, _) = laid(&at(utc));
+        let sky = plan.sky.luminance(down_by(-20.0)).y;
+        for below_deg in [1.0, 10.0, 90.0] {
+            let ground = plan.sky.luminance(down_by(below_deg)).y;
+            assert!(ground > 0.005 * sky && ground < sky, "{utc} {below_deg}: {ground} {sky}");
+        }
+    }
+}
+
+#[test]
+fn the_ground_fades_into_the_air_before_it() {
+    // From a mountain of 2 km by the sea, at noon: the haze makes the ground bluer to the horizon.
+    let mut scene = at("2026-01-18T19:30:00Z");
+    scene.air.ground.height_m = Some(0.0);
+    let (plan, _, _) = laid(&scene);
+    assert!((-1.5..-1.2).contains(&plan.sky.horizon.deg()), "{}", plan.sky.horizon.deg());
+    let blue = |below_deg: f64| {
+        let light = plan.sky.luminance(down_by(below_deg));
+        light.z / light.x
+    };
+    assert!(blue(1.6) > 1.1 * blue(3.0) && blue(3.0) > 1.1 * blue(90.0));
+    // It meets the sky without a step: most of what is seen there is air.
+    let luminance = |below_deg: f64| plan.sky.luminance(down_by(below_deg)).y;
+    let horizon = -plan.sky.horizon.deg();
+    let step = luminance(horizon + 0.001) / luminance(horizon - 0.001);
+    assert!((step - 1.0).abs() < 0.2, "{step}");
+}
+
+#[test]
+fn air_that_was_solved_is_not_solved_again() {
+    let night = first(&mut at("2026-01-18T00:00:00Z"), |_| true);
+    let height_m = night.sky.place.height_m;
+    let mut solved = None;
+    let sky = skylight::sky_plan(&night, true, false, &mut solved).unwrap();
+    assert!(solved.as_ref().unwrap().is_of(&night.air, height_m));
+    // Other air takes its place, and gives what it gives alone.
+    let mut other = night.clone();
+    other.air.ozone.column_du = 200.0;
+    let thin = skylight::sky_plan(&other, true, false, &mut solved).unwrap();
+    let kept = solved.as_ref().unwrap();
+    assert!(kept.is_of(&other.air, height_m) && !kept.is_of(&night.air, height_m));
+    assert!(!kept.is_of(&other.air, height_m + 1.0));
+    let again = skylight::sky_plan(&other, true, false, &mut solved).unwrap();
+    assert_eq!(thin.sun.as_ref().unwrap().view, again.sun.unwrap().view);
+    assert_ne!(thin.sun.unwrap().view, sky.sun.unwrap().view);
 }

@@ -54,7 +54,7 @@ fn uniforms_have_one_layout_on_both_sides() {
         sky,
         "Sky",
         SkyUniform,
-        [source_azimuth, source_shines, azimuths, altitudes, half_pixel, padding, ground]
+        [sources, shines, azimuths, above, below, phases, horizon, half_pixel]
     );
     let discs = parsed("discs", &assembled("discs"));
     same_layout!(

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{
-    Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyView,
+    Quality, SKY_NODES_NM, ScatteringError, ScatteringTables, SkyShape,
 };
 use nocturne::background::Interrupt;
 use nocturne::store::Store;
@@ -147,23 +147,34 @@ fn the_azimuth_means_nothing_where_there_is_none() {
 #[test]
 fn the_table_of_the_sky_holds_its_radiances() {
     let cos_sun = cos_zenith(8.0);
-    let view = HAZY.sky_view(OBSERVER_KM, cos_sun, 33, 25);
+    let shape = SkyShape { above: 31, below: 11, azimuths: 25 };
+    let rays = HAZY.sky_rays(0.5, shape);
+    let view = HAZY.sky_view(&rays, cos_sun);
+    let fine = view.refined(SkyShape { above: 121, below: 41, azimuths: 73 });
     let (mut direct, mut table) = ([0.0; 3], [0.0; 3]);
-    for (i_el, i_az) in [(0, 0), (7, 16), (24, 32)] {
-        let elevation = SkyView::elevation_of(i_el as f64 / 24.0);
-        let azimuth = Angle::from_deg(180.0 * i_az as f64 / 32.0);
-        HAZY.radiance(OBSERVER_KM, cos_sun, elevation, azimuth, &mut direct);
-        view.sample(elevation, azimuth, &mut table);
-        for ((node, table), direct) in view.node(i_el, i_az).iter().zip(table).zip(direct) {
-            assert!((f64::from(*node) / direct - 1.0).abs() < 1e-4, "{i_el} {i_az}");
-            assert!((table / direct - 1.0).abs() < 1e-4, "{i_el} {i_az}");
+    for (row, column) in [(7, 16), (30, 24), (36, 3)] {
+        let (elevation, azimuth) = (shape.elevation(row, view.horizon), shape.azimuth(column));
+        HAZY.radiance(0.5, cos_sun, elevation, azimuth, &mut direct);
+        for view in [&view, &fine] {
+            view.sample(elevation, azimuth, &mut table);
+            for (table, direct) in table.iter().zip(direct) {
+                assert!((table / direct - 1.0).abs() < 1e-4, "{row} {column}: {table} {direct}");
+            }
+        }
+        assert!((view.light(row, column)[1] / direct[1] - 1.0).abs() < 1e-4);
+    }
+    // Between nodes, into the aureole too, over the horizon and under it.
+    for (elevation, azimuth) in
+        [(17.0, -64.0), (9.3, 1.2), (0.7, 120.0), (-2.6, 31.0), (-40.0, 5.0)]
+    {
+        let (elevation, azimuth) = (Angle::from_deg(elevation), Angle::from_deg(azimuth));
+        HAZY.radiance(0.5, cos_sun, elevation, azimuth, &mut direct);
+        fine.sample(elevation, azimuth, &mut table);
+        for (table, direct) in table.iter().zip(direct) {
+            let error = (table / direct - 1.0).abs();
+            assert!(error < 0.005, "{} {}: {error}", elevation.deg(), azimuth.deg());
         }
     }
-    // Between nodes.
-    let (elevation, azimuth) = (Angle::from_deg(17.0), Angle::from_deg(-64.0));
-    HAZY.radiance(OBSERVER_KM, cos_sun, elevation, azimuth, &mut direct);
-    view.sample(elevation, azimuth, &mut table);
-    assert!((table[1] / direct[1] - 1.0).abs() < 0.01, "{table:?} {direct:?}");
 }
 
 #[test]
@@ -196,7 +207,8 @@ fn wavelengths_beyond_a_band_keep_their_order() {
     assert!(all[..8].windows(2).all(|w| w[0] > w[1]), "a clear sky is blue: {all:?}");
     let (diffuse, direct) = tables.ground_irradiance(0.4);
     assert_eq!((diffuse.len(), direct.len()), (9, 9));
-    assert_eq!(tables.sky_view(0.0, 0.4, 2, 2).node(1, 1).len(), 9);
+    let rays = tables.sky_rays(0.0, SkyShape { above: 4, below: 4, azimuths: 4 });
+    assert_eq!(tables.sky_view(&rays, 0.4).light(1, 1).len(), 9);
 }
 
 #[test]

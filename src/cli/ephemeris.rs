@@ -207,7 +207,7 @@ pub(super) struct Source {
     pub name: String,
     pub reader: Box<dyn Read>,
     /// Of a file, for the progress.
-    bytes: Option<u64>,
+    pub(super) bytes: Option<u64>,
 }
 
 impl Source {
