@@ -51,7 +51,7 @@ pub struct Splat {
 }
 
 /// The nodes of the tables of a [`SkyPlan`]: read with straight lines, see [`SkyView`].
-pub const SKY_SHAPE: SkyShape = SkyShape { above: 121, below: 41, azimuths: 73 };
+pub const SKY_SHAPE: SkyShape = SkyShape { above: 121, below: 49, azimuths: 73 };
 
 /// The light of the sky, and of the ground seen through the air before it, as tables.
 #[derive(Debug, Clone)]

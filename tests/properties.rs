@@ -365,10 +365,12 @@ fn check_plan(plan: &FramePlan) {
     for disc in &plan.discs {
         let [first, last] = disc.bounds_px;
         assert!(first[0] < last[0] && first[1] < last[1], "{disc:?}");
-        let nodes = disc.nodes.iter();
-        assert!(nodes.clone().all(|node| is_light(node.luminance)), "{:?}", disc.nodes);
-        assert!(nodes.clone().all(|node| node.geometric_altitude.rad().is_finite()));
-        assert!(disc.lowest.rad().is_finite() && disc.step.rad() > 0.0, "{disc:?}");
+        assert!(!disc.bands.is_empty(), "{disc:?}");
+        for node in disc.bands.iter().flat_map(|band| &band.nodes) {
+            assert!(is_light(node.luminance), "{node:?}");
+            assert!(node.above_centre.rad().is_finite() && node.rise.rad().is_finite(), "{node:?}");
+        }
+        assert!(disc.lowest.vector().is_finite() && disc.step.rad() > 0.0, "{disc:?}");
         let mean = disc.shape.mean();
         assert!(mean.is_finite() && mean >= 0.0, "{disc:?}");
     }

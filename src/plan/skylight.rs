@@ -48,7 +48,7 @@ pub fn moon_shines(night: &Night) -> Shines {
 }
 
 /// The nodes that are computed; cubics through them make [`SKY_SHAPE`].
-pub const COMPUTED_SHAPE: SkyShape = SkyShape { above: 31, below: 11, azimuths: 25 };
+pub const COMPUTED_SHAPE: SkyShape = SkyShape { above: 37, below: 13, azimuths: 25 };
 
 /// The air solved once for an atmosphere around an observer, and the rays he looks along.
 pub struct SolvedAir {
@@ -79,11 +79,15 @@ impl SolvedAir {
         air: &Atmosphere,
         height_m: f64,
     ) -> Result<&'s SolvedAir, ScatteringError> {
-        let same = |kept: &SolvedAir| kept.air == *air && kept.height_m == height_m;
-        match solved.take_if(|kept| same(kept)) {
+        match solved.take_if(|kept| kept.is_of(air, height_m)) {
             Some(kept) => Ok(solved.insert(kept)),
             None => Ok(solved.insert(SolvedAir::solve(air, height_m)?)),
         }
+    }
+
+    /// Whether this is the air around an observer of a height above sea level, metres.
+    pub fn is_of(&self, air: &Atmosphere, height_m: f64) -> bool {
+        self.air == *air && self.height_m == height_m
     }
 
     /// The solved field.
