@@ -142,7 +142,7 @@ fn offset_from_pixel(pixel: vec2f) -> vec4f {
 }
 
 // A point of the picture as the disc has it.
-struct DiscSight {
+struct Across {
     // Place among the nodes by apparent altitude, 0 at the lowest; negative where nothing is seen.
     place: f32,
     // Sine of the azimuth from the centre, and one less its cosine.
@@ -150,10 +150,10 @@ struct DiscSight {
     versine_azimuth: f32,
 }
 
-const NOTHING = DiscSight(-1e9, 0.0, 0.0);
+const NOTHING = Across(-1e9, 0.0, 0.0);
 
 // Given a point in pixels, where it lies across the disc.
-fn sight_at(pixel: vec2f) -> DiscSight {
+fn across_at(pixel: vec2f) -> Across {
     let view = offset_from_pixel(pixel);
     if view.w < 0.0 {
         return NOTHING;
@@ -170,12 +170,12 @@ fn sight_at(pixel: vec2f) -> DiscSight {
     let cos_azimuth = sqrt(max(1.0 - sin_azimuth * sin_azimuth, 0.0));
     let ahead = dot(flat, disc.lowest.xy) >= 0.0;
     let near = sin_azimuth * sin_azimuth / (1.0 + cos_azimuth);
-    return DiscSight(above * disc.per_step, sin_azimuth, select(2.0 - near, near, ahead));
+    return Across(above * disc.per_step, sin_azimuth, select(2.0 - near, near, ahead));
 }
 
-// Given where a sight lies, the point of the disc in a band, level and up, in radii; in z one less the
+// Given a sight, the point of the disc in a band, level and up, in radii; in z one less the
 // cosine of its angle from the centre.
-fn point_at(band: u32, sight: DiscSight) -> vec3f {
+fn point_at(band: u32, sight: Across) -> vec3f {
     let node = min(u32(sight.place), NODES - 2u);
     let t = sight.place - f32(node);
     // Hermite's cubic through two nodes and their slopes.
@@ -201,13 +201,13 @@ fn beside_occluder(at: vec3f) -> f32 {
 }
 
 // Whether a sight is one at which the disc may be.
-fn is_on_disc(sight: DiscSight) -> bool {
+fn is_on_disc(sight: Across) -> bool {
     return sight.place >= 0.0 && sight.place <= f32(NODES - 1u);
 }
 
 // Given a point in pixels, the light of the disc there; none below the horizon.
 fn light_at(pixel: vec2f) -> LuminanceXyzv {
-    let sight = sight_at(pixel);
+    let sight = across_at(pixel);
     var light = vec4f(0.0);
     if !is_on_disc(sight) {
         return light;
@@ -231,14 +231,14 @@ fn light_at(pixel: vec2f) -> LuminanceXyzv {
 // Given the middle of a pixel, how many samples it asks for and the turn of their lattice: many where
 // an edge may run through it, of the disc, of what stands in front, or of the ground; none outside.
 fn lattice_at(middle: vec2f) -> vec2u {
-    let sight = sight_at(middle);
+    let sight = across_at(middle);
     let margin = disc.edge * disc.centre.z;
     let low = sight.place / disc.per_step;
     let high = (sight.place - f32(NODES - 1u)) / disc.per_step;
     if low < -margin || high > margin {
         return vec2u(0u);
     }
-    let nearest = DiscSight(clamp(sight.place, 0.0, f32(NODES - 1u)), sight.sin_azimuth, sight.versine_azimuth);
+    let nearest = Across(clamp(sight.place, 0.0, f32(NODES - 1u)), sight.sin_azimuth, sight.versine_azimuth);
     let at = point_at(disc.bands / 2u, nearest);
     let outside = length(at.xy) - 1.0;
     if outside > disc.edge || at.z > 0.5 {

@@ -7,11 +7,14 @@ mod support;
 use glam::DMat3;
 use libtest_mimic::Failed;
 use nocturne::air::Atmosphere;
+use nocturne::air::aerosol::PhaseLaw;
 use nocturne::air::scattering::{Phase, SkyView};
 use nocturne::camera::{Camera, Projection};
 use nocturne::frame::{Apparent, Dir, Horizon};
 use nocturne::image::HdrFrame;
-use nocturne::plan::disc::{AlbedoMap, Disc, DiscNode, DiscShape, NODES, SurfaceLaw};
+use nocturne::plan::disc::{
+    AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw,
+};
 use nocturne::plan::{FramePlan, SKY_SHAPE, SkyPlan, SourceSky, Splat};
 use nocturne::render::Renderer;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
@@ -217,7 +220,7 @@ fn hazy_sky(sun_azimuth: Angle, sun_elevation: Angle) -> SkyPlan {
     };
     let smooth: Vec<f32> = (0..SKY_SHAPE.nodes()).flat_map(light).collect();
     let mut air = Atmosphere::default();
-    air.aerosol.asymmetry = 0.85;
+    air.aerosol.phase = PhaseLaw::HenyeyGreenstein { g: 0.85 };
     let source = |azimuth: Angle, elevation: Angle, share: f32| SourceSky {
         azimuth,
         view: SkyView {
@@ -329,10 +332,15 @@ fn disc_plan(camera: Camera, law: SurfaceLaw, radius: Angle, phase_deg: f64) -> 
         law,
     };
     let step = radius * (2.0 / (NODES - 1) as f64);
-    let lowest = altitude - radius;
+    let lowest = Dir::from_azimuth_altitude(camera.azimuth, altitude - radius);
     let node = |index: usize| DiscNode {
-        geometric_altitude: lowest + step * index as f64,
+        above_centre: step * index as f64 - radius,
+        rise: step,
         luminance: Xyzv::new(0.9, 1.0, 1.1, 2.0),
+    };
+    let limb_darkening = match &shape.law {
+        SurfaceLaw::Sun { limb_darkening } => *limb_darkening,
+        _ => [0.0; 6],
     };
     let half = radius.rad() * camera.focal_px() * 1.1 + 2.0;
     let middle = [f64::from(camera.width_px) / 2.0, f64::from(camera.height_px) / 2.0];
@@ -342,9 +350,11 @@ fn disc_plan(camera: Camera, law: SurfaceLaw, radius: Angle, phase_deg: f64) -> 
         shape,
         bounds_px: [middle.map(|m| m - half), middle.map(|m| m + half)],
         lowest,
+        lowest_in_view: camera.view_from_apparent() * lowest,
         step,
-        nodes: std::array::from_fn(node),
-        samples: ((48.0 / across_px).ceil() as u32).clamp(1, 8),
+        bands: vec![DiscBand { limb_darkening, nodes: (0..NODES).map(node).collect() }],
+        samples: [Lattice { points: 13, turn: 8 }, Lattice { points: 55, turn: 34 }],
+        edge: 2.0 / across_px,
         occluder: None,
     };
     FramePlan { discs: vec![disc], ..dark_plan(camera) }
@@ -398,7 +408,7 @@ fn the_frame_holds_a_faint_sky(renderer: &Renderer) -> Result<(), Failed> {
         Angle::from_deg(1.0),
         0.0,
     );
-    for node in &mut plan.discs[0].nodes {
+    for node in &mut plan.discs[0].bands[0].nodes {
         node.luminance = Xyzv::new(luminance, luminance, luminance, luminance);
     }
     plan.sky.dark.fill(faint);

@@ -6,10 +6,14 @@ mod support;
 
 use libtest_mimic::Failed;
 use nocturne::camera::Projection;
+use nocturne::ephemeris::Body;
 use nocturne::export::describe::{DescribedObject, Description};
+use nocturne::frame::{Apparent, Dir, Horizon};
 use nocturne::image::HdrFrame;
+use nocturne::plan::disc::Disc;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
+use nocturne::units::Xyzv;
 use support::{GpuTest, check, drawn, laid};
 
 /// A moonless winter night: Orion, Sirius and Jupiter high in the south.
@@ -44,6 +48,9 @@ fn main() {
         ),
         GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
         GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
+        GpuTest::new("a_disc_is_that_of_its_plan", disc_is_that_of_its_plan),
+        GpuTest::new("limbs_stand_right_in_the_narrowest_field", limbs_in_the_narrowest_field),
+        GpuTest::new("the_setting_sun_has_its_flux_and_its_rims", setting_sun_has_its_rims),
         GpuTest::new("the_sky_is_that_of_its_tables", sky_is_that_of_its_tables),
     ])
 }
@@ -210,6 +217,233 @@ fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
             check(error.abs() < 0.01, || {
                 format!("{name}, {fov_deg}° on {width_px} px: off by {error:.4}")
             })?;
+        }
+    }
+    Ok(())
+}
+
+/// The Sun over the sea at an equinox, its centre a third of a degree above the horizon, and nothing
+/// else.
+fn sunset() -> Scene {
+    let mut scene = scene();
+    scene.utc = "2026-03-20T18:08:10Z".to_owned();
+    (scene.place.latitude_deg, scene.place.longitude_deg, scene.place.height_m) = (0.0, 0.0, 0.0);
+    (scene.layers.skylight, scene.layers.ground) = (false, false);
+    (scene.layers.stars, scene.layers.planets, scene.layers.moon) = (false, false, false);
+    let camera = &mut scene.camera;
+    camera.projection = Projection::Perspective;
+    (camera.azimuth_deg, camera.altitude_deg) = (270.0, 0.3);
+    (camera.field_of_view_deg, camera.width_px, camera.height_px) = (0.7, 300, 300);
+    scene
+}
+
+/// The light of a disc in the middle of a pixel, in 64 bits, by the way that the shader goes.
+fn twin(disc: &Disc, setting: &Setting, pixel: [f64; 2]) -> Option<(Xyzv, f64)> {
+    let camera = &setting.camera;
+    let dir = camera.view_from_apparent().inverse() * camera.view_from_pixel(pixel)?;
+    let place = (dir.altitude() - disc.lowest.altitude()).rad() / disc.step.rad();
+    let mut light = Xyzv::BLACK;
+    let mut farthest = 0.0f64;
+    for band in &disc.bands {
+        let node = (place.max(0.0) as usize).min(band.nodes.len() - 2);
+        let along = place - node as f64;
+        let (low, high) = (&band.nodes[node], &band.nodes[node + 1]);
+        let above = low.above_centre * (1.0 - along) + high.above_centre * along;
+        let shape = &disc.shape;
+        let altitude = shape.centre.altitude() + above;
+        let stands: Dir<Horizon> = Dir::from_azimuth_altitude(dir.azimuth(), altitude);
+        let centre = shape.centre.vector();
+        let off =
+            (stands.vector() - centre * stands.dot(shape.centre)) / shape.angular_radius.sin();
+        farthest = farthest.max(off.length());
+        if off.length() < 1.0 && place >= 0.0 {
+            let mu = (1.0 - off.length_squared()).sqrt();
+            let darkened = band.limb_darkening.iter().rev().fold(0.0, |sum, a| sum * mu + a);
+            light += (low.luminance * (1.0 - along) + high.luminance * along) * darkened;
+        }
+    }
+    Some((light, farthest))
+}
+
+fn disc_is_that_of_its_plan(renderer: &Renderer) -> Result<(), Failed> {
+    for projection in [
+        Projection::Perspective,
+        Projection::Stereographic,
+        Projection::Equidistant,
+        Projection::EqualArea,
+        Projection::Equirectangular,
+    ] {
+        // Low and in many colours, and high near the zenith, turned and aside in a wide field.
+        for (utc, azimuth_deg, altitude_deg, fov_deg) in
+            [("2026-03-20T18:08:10Z", 270.0, 0.3, 0.7), ("2026-03-20T12:10:00Z", 240.0, 75.0, 40.0)]
+        {
+            let mut scene = sunset();
+            scene.utc = utc.to_owned();
+            scene.camera.projection = projection;
+            scene.camera.roll_deg =
+                if projection == Projection::Equirectangular { 0.0 } else { 20.0 };
+            (scene.camera.azimuth_deg, scene.camera.altitude_deg) = (azimuth_deg, altitude_deg);
+            scene.camera.field_of_view_deg = fov_deg;
+            if fov_deg > 10.0 {
+                (scene.camera.width_px, scene.camera.height_px) = (1600, 1600);
+            }
+            let (plan, _, setting, _) = laid(&scene)?;
+            let frame = renderer.frame(&plan)?.frame;
+            let disc = plan.discs.first().ok_or_else(|| format!("{projection:?}: no disc"))?;
+            let mut compared = 0;
+            for y in 0..frame.height_px() {
+                for x in 0..frame.width_px() {
+                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                    let Some((expected, farthest)) = twin(disc, &setting, pixel) else { continue };
+                    let drawn = frame.xyzv(x, y);
+                    // The limb itself is for the other tests.
+                    if farthest > 1.0 + disc.edge {
+                        check(drawn.y == 0.0, || format!("{projection:?}: light at {x}, {y}"))?;
+                    } else if farthest < 1.0 - disc.edge && expected.y > 0.0 {
+                        compared += 1;
+                        let error = (drawn.y / expected.y - 1.0).abs();
+                        let within = if fov_deg > 10.0 { 0.02 } else { 0.004 };
+                        check(error < within, || {
+                            format!("{projection:?}, {utc}: {x}, {y} is off by {error:.5}")
+                        })?;
+                    }
+                }
+            }
+            check(compared > 60, || format!("{projection:?}, {utc}: {compared} pixels"))?;
+        }
+    }
+    Ok(())
+}
+
+fn limbs_in_the_narrowest_field(renderer: &Renderer) -> Result<(), Failed> {
+    // Rays run straight, so that the limb is where the circle is.
+    let mut scene = sunset();
+    scene.utc = "2026-03-20T14:30:00Z".to_owned();
+    scene.air = scene.air.straight();
+    (scene.camera.width_px, scene.camera.height_px) = (960, 160);
+    let (_, _, _, night) = laid(&scene)?;
+    let sun = &night.sky.sun;
+    let centre = sun.dir.vector();
+    let side = centre.any_orthonormal_vector();
+    let across = centre.cross(side);
+    for turn_deg in [0.0f64, 77.0, 190.0, 281.0] {
+        let (sin, cos) = turn_deg.to_radians().sin_cos();
+        let radial = side * cos + across * sin;
+        let (sin_radius, cos_radius) = sun.angular_radius.sin_cos();
+        let limb: Dir<Apparent> = Dir::from_vector(centre * cos_radius + radial * sin_radius);
+        let camera = &mut scene.camera;
+        (camera.azimuth_deg, camera.altitude_deg) = (limb.azimuth().deg(), limb.altitude().deg());
+        camera.field_of_view_deg = 0.02;
+        // Turned so that the limb runs upright through the picture.
+        for roll_deg in [0.0, 90.0] {
+            scene.camera.roll_deg = roll_deg;
+            let (frame, setting, _) = drawn(renderer, &scene)?;
+            let camera = &setting.camera;
+            // Along a row, and along a column: the light over that of a pixel well inside is a length.
+            let inside = |pixel: [f64; 2]| -> Option<bool> {
+                let view = camera.view_from_pixel(pixel)?;
+                let dir = camera.view_from_apparent().inverse() * view;
+                Some((dir.vector() - centre * dir.vector().dot(centre)).length() < sin_radius)
+            };
+            for x in (3..camera.width_px - 3).step_by(97) {
+                let (mut lit, mut expected, mut brightest) = (0.0, 0.0, 0.0f64);
+                for y in 0..camera.height_px {
+                    brightest = brightest.max(frame.xyzv(x, y).y);
+                }
+                for y in 0..camera.height_px {
+                    // The limb is 0.3 as bright as the middle, and the field is all limb.
+                    lit += frame.xyzv(x, y).y / brightest.max(1.0);
+                    let steps = 50;
+                    let rows = (0..steps).filter(|step| {
+                        let row = f64::from(y) + (f64::from(*step) + 0.5) / f64::from(steps);
+                        inside([f64::from(x) + 0.5, row]) == Some(true)
+                    });
+                    expected += rows.count() as f64 / f64::from(steps);
+                }
+                // Limb darkening takes a little of the light near the limb.
+                let all = f64::from(camera.height_px);
+                if expected > 0.0 && expected < all {
+                    let off = lit - expected;
+                    check((-0.03 * expected - 0.6..0.1).contains(&off), || {
+                        format!("{turn_deg}°, column {x}: {lit:.2} px lit, not {expected:.2}")
+                    })?;
+                }
+                // The row in which the limb is, from how much of its pixel is lit.
+                let edges: Vec<u32> = (1..camera.height_px - 1)
+                    .filter(|&y| {
+                        let pixel = |row: f64| inside([f64::from(x) + 0.5, f64::from(y) + row]);
+                        pixel(0.0) != pixel(1.0)
+                    })
+                    .collect();
+                for y in edges {
+                    let beyond = [frame.xyzv(x, y - 1).y, frame.xyzv(x, y + 1).y];
+                    let full = beyond[0].max(beyond[1]);
+                    if full <= 0.0 || beyond[0] > 0.0 && beyond[1] > 0.0 {
+                        continue;
+                    }
+                    let share = frame.xyzv(x, y).y / full;
+                    let steps = 200;
+                    let expected = (0..steps)
+                        .filter(|step| {
+                            let row = f64::from(y) + (f64::from(*step) + 0.5) / f64::from(steps);
+                            inside([f64::from(x) + 0.5, row]) == Some(true)
+                        })
+                        .count() as f64
+                        / f64::from(steps);
+                    check((share - expected).abs() < 0.1, || {
+                        format!("{turn_deg}°, {x}, {y}: {share:.3} of the pixel, not {expected:.3}")
+                    })?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn setting_sun_has_its_rims(renderer: &Renderer) -> Result<(), Failed> {
+    // Whole, cut by the horizon, and almost gone.
+    for (utc, field_deg, within) in [
+        ("2026-03-20T18:08:10Z", 0.7, 0.01),
+        ("2026-03-20T18:09:20Z", 0.7, 0.01),
+        ("2026-03-20T18:10:20Z", 0.7, 0.02),
+        ("2026-03-20T18:09:20Z", 6.0, 0.02),
+        ("2026-03-20T18:09:20Z", 30.0, 0.03),
+    ] {
+        let mut scene = sunset();
+        scene.utc = utc.to_owned();
+        scene.camera.field_of_view_deg = field_deg;
+        let (frame, setting, night) = drawn(renderer, &scene)?;
+        let mut sum = Xyzv::BLACK;
+        let mut rows = Vec::new();
+        for y in 0..frame.height_px() {
+            let mut row = Xyzv::BLACK;
+            for x in 0..frame.width_px() {
+                let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                row += frame.xyzv(x, y) * setting.camera.pixel_solid_angle_sr(pixel);
+            }
+            sum += row;
+            rows.push(row);
+        }
+        let expected = night.body(Body::Sun).ok_or("no Sun")?.ground;
+        check(expected.y > 0.0, || format!("{utc}: the Sun has set"))?;
+        for (got, wanted) in [(sum.x, expected.x), (sum.y, expected.y), (sum.v, expected.v)] {
+            let error = got / wanted - 1.0;
+            check(error.abs() < within, || format!("{utc}, {field_deg}°: off by {error:.4}"))?;
+        }
+        if field_deg > 1.0 || within > 0.01 {
+            continue;
+        }
+        // Along the middle: green above, red below, and the colour of the Sun between. The upper rim is
+        // some pixels of 8" high.
+        let redness = |light: Xyzv| light.x / light.y;
+        let lit: Vec<usize> = (0..rows.len()).filter(|&y| rows[y].y > 1e-4 * sum.y).collect();
+        let (first, last) = (lit[0], lit[lit.len() - 1]);
+        let middle = redness(rows[(first + last) / 2]);
+        let top = redness(rows[first]);
+        check(top < 0.9 * middle, || format!("{utc}: the upper rim is not green: {top} {middle}"))?;
+        if utc.ends_with("08:10Z") {
+            let bottom = redness(rows[last]);
+            check(bottom > 1.1 * redness(rows[last - 8]), || format!("{utc}: lower rim {bottom}"))?;
         }
     }
     Ok(())
