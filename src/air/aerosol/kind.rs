@@ -7,8 +7,9 @@
 //!
 //! Omitted: shapes other than spheres, of which dust has many; humidity other than that of the table.
 //!
-//! Accuracy: phase functions between the angles within 0.3 % (1 % at the rainbow and the glory of
-//! sea salt); extinction and albedo at 550 nm are those of OPAC's own table within its last digit.
+//! Accuracy: phase functions between the angles within 0.3 % (`clear`, `continental`), 0.8 %
+//! (`desert`, `volcanic`), 2 % (`maritime`, in its rainbow and glory); extinction and albedo at
+//! 550 nm are those of OPAC's own table within its last digit.
 
 use std::sync::LazyLock;
 

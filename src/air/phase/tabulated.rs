@@ -38,7 +38,7 @@ pub struct Tabulated {
     angles_rad: Vec<f64>,
     /// Natural logarithms of the normalised values.
     logarithms: Vec<f64>,
-    moments: [f64; KEPT_MOMENTS],
+    moments: Vec<f64>,
 }
 
 /// A table as it stands in a file.
@@ -85,10 +85,10 @@ impl Tabulated {
         let most = values.iter().copied().fold(0.0, f64::max);
         let logarithms = values.iter().map(|v| v.ln() - most.ln()).collect();
         let written = Written { degrees, values };
-        let mut table = Tabulated { written, angles_rad, logarithms, moments: [0.0; KEPT_MOMENTS] };
+        let mut table = Tabulated { written, angles_rad, logarithms, moments: Vec::new() };
         let norm = table.integral(0);
         table.logarithms.iter_mut().for_each(|v| *v -= norm.ln());
-        table.moments = std::array::from_fn(|l| table.integral(l));
+        table.moments = (0..KEPT_MOMENTS).map(|l| table.integral(l)).collect();
         Ok(table)
     }
 

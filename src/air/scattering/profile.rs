@@ -180,7 +180,7 @@ pub(crate) struct Optics {
 #[derive(Debug, Clone)]
 enum AerosolPhase {
     /// By its formula.
-    Law(Aerosol),
+    Law(Box<Aerosol>),
     /// Where the law itself is a table: at angles of turn `180 t^2` degrees for equal steps of `t`,
     /// linear between, within 0.2 %.
     Resampled(Vec<Lanes>),
@@ -192,7 +192,7 @@ const PHASE_INTERVALS: usize = 1024;
 impl AerosolPhase {
     fn new(aerosol: &Aerosol, wavelengths_nm: &[f64; LANES]) -> AerosolPhase {
         if !aerosol.phase.is_tabulated() {
-            return AerosolPhase::Law(aerosol.clone());
+            return AerosolPhase::Law(Box::new(aerosol.clone()));
         }
         let node = |i: usize| {
             let t = i as f64 / PHASE_INTERVALS as f64;
