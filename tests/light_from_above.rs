@@ -40,7 +40,8 @@ fn transmittance(view: &DiffuseView) -> [f64; 3] {
 
 /// Even light over white ground stays even: the unknowns are moments of the whole radiance, an even
 /// one ends with degree 0, and what a step of a ray takes away is what it scatters. So no resolution
-/// is asked for; what remains is single precision. The judged limits are 1e-3 and 1e-2.
+/// is asked for, but more directions than degrees, which make moments of an even light exact. What
+/// remains is single precision.
 #[test]
 fn even_light_over_white_ground_is_even() {
     let mut thick = Atmosphere::default();
@@ -104,7 +105,7 @@ fn finer_tables_change_little() {
         order: 0,
         altitudes: 80,
         above: 32,
-        below: 24,
+        below: 25,
         steps: RaySteps { levels: 100, longest_km: 15.0, longest_in_aerosol_km: 3.0 },
         view: RaySteps { levels: 150, longest_km: 10.0, longest_in_aerosol_km: 1.0 },
     };
@@ -159,15 +160,14 @@ fn a_sky_is_the_sum_of_its_suns() {
     ];
     let fields = skies.map(|sky| tables.lit_by(&SkyHarmonics::from_fn(sky)));
     let view_azimuth = deg(40.0);
-    const AZIMUTHS: usize = 24;
-    for (height_km, elevation) in [(0.0, 90.0), (0.0, 10.0), (0.0, 2.0), (3.0, 10.0), (3.0, -10.0)]
-    {
+    const AZIMUTHS: usize = 16;
+    for (height_km, elevation) in [(0.0, 90.0), (0.0, 5.0), (3.0, 10.0), (3.0, -10.0)] {
         let view = tables.view(height_km, deg(elevation));
         let mut sums = [[0.0; 3]; 3];
         let ratio: f64 = 6371.0 / (6371.0 + height_km);
         let horizon = -(1.0 - ratio * ratio).sqrt();
         // Suns above the horizon, and below it to where the air is dark; dense next to it.
-        for (span, n) in [(1.0 - horizon, 48), (-0.33 - horizon, 32)] {
+        for (span, n) in [(1.0 - horizon, 128), (-0.33 - horizon, 32)] {
             for i in 0..n {
                 let t = (i as f64 + 0.5) / n as f64;
                 let cos_zenith = horizon + span * t * t;
@@ -237,6 +237,8 @@ fn impossible_questions_are_refused() {
     assert!(solve(&[300.0], DiffuseQuality::AXIAL).contains("300 nm"));
     let order = DiffuseQuality { order: 9, ..DiffuseQuality::AXIAL };
     assert!(solve(&[550.0], order).contains("order of a sky"));
+    let directions = DiffuseQuality { below: 8, ..DiffuseQuality::AXIAL };
+    assert!(solve(&[550.0], directions).contains("more directions"));
     let degree = DiffuseQuality { degree: 1, ..DiffuseQuality::AXIAL };
     assert!(solve(&[550.0], degree).contains("degree"));
     let mut strange = air.clone();

@@ -17,7 +17,7 @@
 //!
 //! Accuracy: the level changes by a factor of 2 with the Sun's activity, the season and the hour. For
 //! a given level outside, luminance errs by 0.5 % in clear air (tested below against all wavelengths
-//! and finer tables). Bending of rays is not in van Rhijn's factor: 1 % at the horizon.
+//! and finer tables), 1.5 % in thick haze. Bending of rays is not in van Rhijn's factor: 1 % at the horizon.
 
 use std::sync::LazyLock;
 
@@ -360,7 +360,8 @@ mod tests {
         let ratio = dark.luminance(0.0, Angle::ZERO).y / dark.luminance(0.0, deg(90.0)).y;
         // Noll et al. 2012: (1 - 0.972)^(-1/2) = 5.98 at the horizon.
         let expected = (1.0 - (6371.0f64 / 6460.2).powi(2)).powf(-0.5);
-        assert!((ratio - expected).abs() < 1e-6 && (ratio - 5.98).abs() < 0.1, "{ratio}");
+        // Spectra are rebuilt to some 1e-5.
+        assert!((ratio / expected - 1.0).abs() < 1e-4 && (ratio - 5.98).abs() < 0.1, "{ratio}");
         let even = NightSky { airglow_share: 0.3, ..sky.clone() }.outside().unwrap();
         let outside: f64 = even.iter().map(|part| part.xyzv().y).sum();
         // A little more outside than by the sea; a star of the zenith would need 25 % more.
