@@ -75,6 +75,21 @@ struct Traced {
     bending: Angle,
 }
 
+/// A density that is linear between the nodes of the program's air: each kilometre to 30, each two to
+/// 60, each five above.
+fn layered(height_km: f64, density: impl Fn(f64) -> f64) -> f64 {
+    let step_km = if height_km < 30.0 {
+        1.0
+    } else if height_km < 60.0 {
+        2.0
+    } else {
+        5.0
+    };
+    let low_km = (height_km / step_km).floor() * step_km;
+    let share = (height_km - low_km) / step_km;
+    density(low_km) * (1.0 - share) + density(low_km + step_km) * share
+}
+
 /// Follows a ray step by step through the plane of the Earth's centre: `d(n t)/ds = grad n`.
 fn trace(height_km: f64, altitude: Angle, step_km: f64) -> Traced {
     const REFRACTIVITY: f64 = 2.777e-4;
@@ -99,10 +114,13 @@ fn trace(height_km: f64, altitude: Angle, step_km: f64) -> Traced {
         let half_direction = direction + turn(position, direction) * (0.5 * step_km);
         let middle = position + direction * (0.5 * step_km);
         let height_km = middle.length() - EARTH_RADIUS_KM;
-        sum.air_per_m2 += number_density_per_m3(height_km) * step_km * 1000.0;
+        sum.air_per_m2 += layered(height_km, number_density_per_m3) * step_km * 1000.0;
         let tent = (1.0 - (height_km - 25.0).abs() / 15.0).max(0.0) / 15.0;
         sum.ozone_per_m2 += 300.0 * DOBSON_UNIT_PER_M2 * tent * step_km;
-        sum.aerosol_550 += 0.1 / 1.2 * (-height_km / 1.2).exp() * step_km;
+        // Layers of a kilometre hold a little more than the exponential that they are drawn through.
+        let coth = 0.5 / 1.2 / (0.5f64 / 1.2).tanh();
+        let haze = layered(height_km, |km| if km > 30.0 { 0.0 } else { (-km / 1.2).exp() });
+        sum.aerosol_550 += 0.1 / 1.2 * haze / coth * step_km;
         direction = (direction + turn(middle, half_direction) * step_km).normalize();
         position += half_direction * step_km;
     }
@@ -112,7 +130,8 @@ fn trace(height_km: f64, altitude: Angle, step_km: f64) -> Traced {
 
 #[test]
 fn columns_agree_with_stepping_along_the_ray() {
-    let air = Atmosphere::default();
+    let mut air = Atmosphere::default();
+    air.ground.height_m = Some(0.0);
     for (height_m, altitudes_deg) in [
         (0.0, [90.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.0]),
         (2635.0, [60.0, 5.0, 1.0, 0.0, -0.5, -1.0, -1.4]),

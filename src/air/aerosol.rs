@@ -28,8 +28,8 @@ pub(crate) type Checked = (String, f64, f64, f64);
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Aerosol {
-    /// Optical depth of the whole column above sea level at 550 nm: 0.02 on a mountain night, 0.1
-    /// on a clear one, 0.5 in haze. 0 to 3.
+    /// Optical depth of the whole column above the ground at 550 nm: 0.02 in the cleanest nights, 0.1 in
+    /// clear ones, 0.5 in haze. 0 to 3.
     pub optical_depth_550: f64,
     /// Exponent `a` of Angstrom's law, optical depth as `(l / 550 nm)^-a`; -1 to 4. Without it, a
     /// Mie kind has its own law, everything else 1.3.
@@ -113,8 +113,14 @@ impl Aerosol {
         self.phase.moment(wavelength_nm, l)
     }
 
-    /// Share of the whole column in a kilometre at a height above sea level.
-    pub fn density_per_km(&self, height_km: f64) -> f64 {
-        self.profile.density_per_km(height_km)
+    /// Share of the whole column in a kilometre at a height above sea level, over ground of a height:
+    /// what falls exponentially lies on the ground, a layer lies above the sea.
+    pub fn density_per_km(&self, height_km: f64, ground_km: f64) -> f64 {
+        match self.profile {
+            AerosolProfile::Exponential { .. } => {
+                self.profile.density_per_km(height_km - ground_km)
+            }
+            AerosolProfile::Layer { .. } => self.profile.density_per_km(height_km),
+        }
     }
 }

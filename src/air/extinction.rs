@@ -105,7 +105,7 @@ impl SightLines {
         SightLines {
             horizon: bending.horizon_altitude(air.eye_km(height_m), air.ground_km(height_m)),
             bending,
-            densities: Profile::new(air),
+            densities: Profile::new(air, air.ground_km(height_m)),
             per_km: Columns {
                 air_per_m2: 1000.0 * air.density_ratio_at(height_m) * number_density_per_m3(0.0),
                 // The area under the tent is half its width.

@@ -110,7 +110,8 @@ impl MonteCarlo {
         if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
             return Err(ScatteringError::Wavelength(bad));
         }
-        let shells = Shells::new(&Profile::new(air), air.ground_km(observer_height_m));
+        let ground_km = air.ground_km(observer_height_m);
+        let shells = Shells::new(&Profile::new(air, ground_km), ground_km);
         let density_ratio = air.density_ratio_at(observer_height_m);
         let band = |chunk: &[f64]| {
             let matter = Matter::new(&Optics::new(air, density_ratio, chunk), chunk.len());

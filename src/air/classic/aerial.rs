@@ -39,7 +39,7 @@ impl AerialPerspective {
         AerialPerspective {
             molecules_per_m3: number_density_per_m3(height_km) * air.density_ratio_at(height_m),
             haze: air.aerosol.clone(),
-            haze_per_km: air.aerosol.density_per_km(height_km),
+            haze_per_km: air.aerosol.density_per_km(height_km, air.ground_km(height_m)),
         }
     }
 

@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn columns_are_those_of_the_other_formula() {
-        let profile = Profile::new(&Atmosphere::default());
+        let profile = Profile::new(&Atmosphere::default(), 0.0);
         let shells = Shells::new(&profile, 0.0);
         for height in [0.0, 0.3, 8.0, 33.0, 119.0] {
             for cos_zenith in [1.0, 0.4, 0.01, 0.0, -0.002, -0.03, -0.15, -0.9] {
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn a_path_ends_on_the_ground_or_in_space_and_grows_steadily() {
-        let shells = Shells::new(&Profile::new(&Atmosphere::default()), 2.3);
+        let shells = Shells::new(&Profile::new(&Atmosphere::default(), 0.0), 2.3);
         let mut path = Path::default();
         for (r, cos_zenith) in [(6374.0, -0.5), (6373.3, 0.2), (6400.0, -0.06), (6490.0, -1e-3)] {
             shells.cut(r, cos_zenith, &mut path);

@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn light_on_the_ground_falls_with_the_sine_and_ends_after_sunset() {
         let air = Atmosphere::molecular();
-        let profile = Profile::new(&air);
+        let profile = Profile::new(&air, 0.0);
         let optics = Optics::new(&air, 1.0, &[550.0]);
         let beams = Beams::new(&profile, 0.0, 2.777e-4, Angle::from_deg(0.2666));
         let source = SourceTable::new(&beams, &optics);

@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn bent_paths_without_bending_are_straight() {
-        let profile = Profile::new(&Atmosphere::default());
+        let profile = Profile::new(&Atmosphere::default(), 0.0);
         for (height_km, cosine) in [(0.0, 1.0), (0.0, 0.02), (12.3, 0.0), (40.0, 0.3)] {
             let straight = Path::new(&profile, 0.0, height_km, cosine);
             let bent = Path::new(&profile, 1e-15, height_km, cosine);
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn the_ray_of_the_horizon_is_bent_as_the_tables_say() {
         // 35' at the level of the sea in standard air at 15 degrees; this refractivity and density.
-        let profile = Profile::new(&Atmosphere::default());
+        let profile = Profile::new(&Atmosphere::default(), 0.0);
         let path = Path::new(&profile, 2.777e-4, 0.0, 0.0);
         let end = path.point(path.u_at(TOP_KM));
         let (_, turn) = path.between(&path.start(), &end);

@@ -104,7 +104,7 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    pub fn new(air: &Atmosphere) -> Profile {
+    pub fn new(air: &Atmosphere, ground_km: f64) -> Profile {
         let [foot, peak, head] = air.ozone.tent_km;
         let heights_km: Vec<f64> = MOLECULE_DENSITY.iter().map(|&(h, _)| h).collect();
         let mut densities: Vec<[f64; SPECIES]> = MOLECULE_DENSITY
@@ -112,15 +112,19 @@ impl Profile {
             .map(|&(h, n)| {
                 let ozone = ((h - foot) / (peak - foot)).min((head - h) / (head - peak)).max(0.0);
                 let [haze, stratosphere] =
-                    air.aerosols().map(|a| a.map_or(0.0, |a| a.density_per_km(h)));
+                    air.aerosols().map(|a| a.map_or(0.0, |a| a.density_per_km(h, ground_km)));
                 [n / MOLECULE_DENSITY[0].1, ozone, haze, stratosphere]
             })
             .collect();
         for k in AEROSOL..SPECIES {
             let column: f64 = (1..heights_km.len())
+                .filter(|&i| heights_km[i] > ground_km)
                 .map(|i| {
+                    // Of the layer that holds the ground, what lies above it.
                     let thickness_km = heights_km[i] - heights_km[i - 1];
-                    0.5 * (densities[i][k] + densities[i - 1][k]) * thickness_km
+                    let cut = ((ground_km - heights_km[i - 1]) / thickness_km).max(0.0);
+                    let low = densities[i - 1][k] * (1.0 - cut) + densities[i][k] * cut;
+                    0.5 * (densities[i][k] + low) * thickness_km * (1.0 - cut)
                 })
                 .sum();
             if column > 0.0 {
@@ -285,7 +289,7 @@ mod tests {
 
     /// Optical depth of a vertical column of one species.
     fn vertical_depth(air: &Atmosphere, wavelength_nm: f64, species: usize) -> f64 {
-        let profile = Profile::new(air);
+        let profile = Profile::new(air, 0.0);
         let optics = Optics::new(air, 1.0, &[wavelength_nm]);
         let (h, d) = (profile.heights_km(), profile.densities());
         (1..h.len())
@@ -331,7 +335,7 @@ mod tests {
 
     #[test]
     fn densities_meet_their_nodes_and_stop_at_the_ends() {
-        let profile = Profile::new(&Atmosphere::default());
+        let profile = Profile::new(&Atmosphere::default(), 0.0);
         assert_eq!(profile.density(0.0)[0], 1.0);
         assert_eq!(profile.density(25.0)[1], 1.0);
         assert_eq!(profile.density(9.0)[1], 0.0);

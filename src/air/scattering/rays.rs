@@ -36,7 +36,7 @@ impl Geometry {
     pub fn of(air: &Atmosphere, height_m: f64) -> Geometry {
         let by_density = if air.paths.refracted { super::SEA_LEVEL_REFRACTIVITY } else { 0.0 };
         Geometry {
-            profile: Profile::new(air),
+            profile: Profile::new(air, air.ground_km(height_m)),
             ground_km: air.ground_km(height_m),
             refractivity: by_density * air.density_ratio_at(height_m),
         }
@@ -368,7 +368,7 @@ mod tests {
     const RULE: RaySteps = RaySteps { levels: 30, longest_km: 40.0, longest_in_aerosol_km: 5.0 };
 
     fn with_medium(air: &Atmosphere, refractivity: f64, test: impl Fn(&Medium)) {
-        let geometry = Geometry { profile: Profile::new(air), ground_km: 0.0, refractivity };
+        let geometry = Geometry { profile: Profile::new(air, 0.0), ground_km: 0.0, refractivity };
         let optics = Optics::new(air, 1.0, &[450.0, 550.0]);
         let beams = Beams::new(&geometry.profile, 0.0, refractivity, Angle::ZERO);
         let source = SourceTable::new(&beams, &optics);

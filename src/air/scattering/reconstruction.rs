@@ -15,6 +15,11 @@ pub const SKY_NODES_NM: [f64; 8] = [385.0, 400.0, 450.0, 505.0, 545.0, 595.0, 63
 /// Keeps the covariance of nodes invertible; far below any error of the estimate.
 const RIDGE: f64 = 1e-6;
 
+/// By how much, in natural logarithms, light between and beyond the nodes may exceed that of the
+/// brightest: what holds for every sky that is seen, and ends the extrapolation of air that lets
+/// through next to nothing.
+const BEYOND_NODES: f64 = 3.0;
+
 /// A matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matrix {
@@ -41,9 +46,9 @@ impl Matrix {
             return vec![0.0; self.rows];
         }
         let logs: Vec<f64> = node_values.iter().map(|v| v.ln()).collect();
-        (0..self.rows)
-            .map(|i| self.row(i).iter().zip(&logs).map(|(b, l)| b * l).sum::<f64>().exp())
-            .collect()
+        let most = logs.iter().copied().fold(f64::MIN, f64::max) + BEYOND_NODES;
+        let log = |i: usize| self.row(i).iter().zip(&logs).map(|(b, l)| b * l).sum::<f64>();
+        (0..self.rows).map(|i| log(i).min(most).exp()).collect()
     }
 }
 
@@ -90,13 +95,14 @@ impl SpectralSums {
             return [0.0; SUMS];
         }
         let logs: Vec<f32> = nodes.iter().map(|value| value.ln()).collect();
+        let most = logs.iter().copied().fold(f32::MIN, f32::max) + BEYOND_NODES as f32;
         let mut sums = [Lanes::ZERO; SUMS];
         for (rows, weights) in &self.groups {
             let mut ln = Lanes::ZERO;
             for (row, log) in rows.iter().zip(&logs) {
                 ln += *row * *log;
             }
-            let light = ln.exp();
+            let light = ln.map(|ln| ln.min(most)).exp();
             for (sum, weight) in sums.iter_mut().zip(weights) {
                 *sum += light * *weight;
             }

@@ -22,7 +22,7 @@ fn sun() -> Angle {
 
 fn default_air() -> (Profile, Optics) {
     let air = Atmosphere::default();
-    (Profile::new(&air), Optics::new(&air, 1.0, &WAVELENGTHS_NM))
+    (Profile::new(&air, 0.0), Optics::new(&air, 1.0, &WAVELENGTHS_NM))
 }
 
 /// Cosines from dark to the zenith, dense at the edge of the shadow.
@@ -244,7 +244,7 @@ fn refraction_is_that_of_traced_rays() {
 #[test]
 fn bent_columns_are_those_of_another_program() {
     let air = Atmosphere::molecular();
-    let profile = Profile::new(&air);
+    let profile = Profile::new(&air, 0.0);
     let optics = Optics::new(&air, 1.0, &[550.0]);
     let beams = Beams::new(&profile, 0.0, REFRACTIVITY, Angle::ZERO);
     let depth = |columns: &[f64]| -> f64 {
