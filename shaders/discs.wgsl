@@ -49,8 +49,8 @@ struct Band {
 const SUN: u32 = 0;
 const MOON: u32 = 1;
 
-@group(0) @binding(0) var<uniform> camera: Camera;
-@group(0) @binding(1) var<uniform> disc: Disc;
+@group(0) @binding(0) var<storage, read> camera: Camera;
+@group(0) @binding(1) var<storage, read> disc: Disc;
 // Relative albedo, longitude -180 to 180 along x, latitude 90 to -90 down y.
 @group(0) @binding(2) var<storage, read> albedo: array<f32>;
 @group(0) @binding(3) var<storage, read> bands: array<Band>;

@@ -1,7 +1,7 @@
 // The sky and the ground below it, tile by tile. In a smooth tile the light is looked up in the
 // corners and straight between; in the others it is looked up for each pixel.
 
-@group(0) @binding(0) var<uniform> camera: Camera;
+@group(0) @binding(0) var<storage, read> camera: Camera;
 
 // A corner of a tile and its light; straight on the picture, whatever the projection.
 struct Corner {

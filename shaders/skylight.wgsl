@@ -23,7 +23,7 @@ struct Sky {
     half_pixel: Radians,
 }
 
-@group(0) @binding(1) var<uniform> sky: Sky;
+@group(0) @binding(1) var<storage, read> sky: Sky;
 // Sun, then Moon: by row and by azimuth from the source (0 to pi), the smooth part and that of the
 // haze over its phase function; then the dark sky by row alone. Rows lie above the horizon h at
 // h + (pi/2 - h) t^2, then below it at h - (pi/2 + h) t^4, for t from 0 to 1.

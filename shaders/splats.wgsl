@@ -11,7 +11,7 @@ struct Corner {
     @location(1) @interpolate(flat) illuminance: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> camera: Camera;
+@group(0) @binding(0) var<storage, read> camera: Camera;
 
 @vertex
 fn vertex(splat: Splat, @builtin(vertex_index) index: u32) -> Corner {

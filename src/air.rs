@@ -24,7 +24,7 @@ pub mod standard;
 
 use aerosol::Aerosol;
 use refraction::{ObserverAir, Rays, Refraction};
-use standard::standard_pressure_mbar;
+use standard::{standard_pressure_mbar, standard_temperature_c};
 
 /// Radius of the sphere that the air lies on, kilometres: the mean radius of the Earth.
 pub const EARTH_RADIUS_KM: f64 = 6371.0;
@@ -50,15 +50,17 @@ pub struct Atmosphere {
 }
 
 /// The air at the observer.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ObserverWeather {
     /// Millibars, not brought down to sea level; without it, that of the US Standard Atmosphere 1976
     /// at the height of the place. Above 0, up to 1100.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_mbar: Option<f64>,
-    /// Degrees Celsius; -90 to 60.
-    pub temperature_c: f64,
+    /// Degrees Celsius; without it, 10 at the sea and on heights as much less as in the US Standard
+    /// Atmosphere 1976. -90 to 60.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature_c: Option<f64>,
     /// 0 to 1.
     pub relative_humidity: f64,
 }
@@ -80,7 +82,8 @@ pub struct Ground {
     /// Lambert albedo; 0 to 1.
     pub albedo: f64,
     /// Height of the land all around above sea level, metres: 0 for a mountain by the sea. Without
-    /// it, land lies as high as the observer stands. -430 to 9000.
+    /// it, land lies as high as the observer stands, and at the sea for one who flies above all
+    /// mountains. -430 to 9000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
 }
@@ -95,11 +98,6 @@ pub struct LightPaths {
     pub source_disc: bool,
 }
 
-impl Default for ObserverWeather {
-    fn default() -> Self {
-        ObserverWeather { pressure_mbar: None, temperature_c: 10.0, relative_humidity: 0.0 }
-    }
-}
 impl Default for Ozone {
     fn default() -> Self {
         Ozone { column_du: 300.0, tent_km: [10.0, 25.0, 40.0] }
@@ -130,7 +128,22 @@ pub enum AirError {
          Earth; give the pressure at the height of the observer"
     )]
     Duct { pressure_mbar: f64, height_m: f64 },
+    #[error(
+        "air: observer.pressure_mbar is {pressure_mbar:.4} at a height of {height_m:.0} m, more than \
+         {DENSEST} times the {standard_mbar:.4} of the standard atmosphere there; give the pressure at the \
+         height of the observer, or leave it out"
+    )]
+    Dense { pressure_mbar: f64, height_m: f64, standard_mbar: f64 },
 }
+
+/// Lowest temperature of the air that is believed, degrees Celsius.
+const COLDEST_C: f64 = -90.0;
+
+/// Height above sea level that no land exceeds, metres.
+const HIGHEST_LAND_M: f64 = 9000.0;
+
+/// How much denser than the standard atmosphere air may be.
+const DENSEST: f64 = 3.0;
 
 impl Atmosphere {
     /// Air without aerosol, otherwise as by default.
@@ -161,7 +174,9 @@ impl Atmosphere {
 
     /// Height of the ground around an observer of the given height, kilometres above sea level.
     pub fn ground_km(&self, observer_height_m: f64) -> f64 {
-        (self.ground.height_m.unwrap_or(observer_height_m).min(observer_height_m) / 1000.0).max(0.0)
+        let stands_on = if observer_height_m <= HIGHEST_LAND_M { observer_height_m } else { 0.0 };
+        let ground_m = self.ground.height_m.unwrap_or(stands_on).min(observer_height_m);
+        (ground_m / 1000.0).max(0.0)
     }
 
     /// Says which number, if any, lies outside what the formulas hold for.
@@ -171,14 +186,14 @@ impl Atmosphere {
         let [foot, peak, head] = self.ozone.tent_km;
         let numbers = [
             ("observer.pressure_mbar", pressure, f64::MIN_POSITIVE, 1100.0),
-            ("observer.temperature_c", weather.temperature_c, -90.0, 60.0),
+            ("observer.temperature_c", weather.temperature_c.unwrap_or(0.0), COLDEST_C, 60.0),
             ("observer.relative_humidity", weather.relative_humidity, 0.0, 1.0),
             ("ozone.column_du", self.ozone.column_du, 0.0, 1000.0),
             ("ozone.tent_km[0]", foot, 0.0, AIR_TOP_KM),
             ("ozone.tent_km[1]", peak, foot, AIR_TOP_KM),
             ("ozone.tent_km[2]", head, peak.max(foot + 1.0), AIR_TOP_KM),
             ("ground.albedo", self.ground.albedo, 0.0, 1.0),
-            ("ground.height_m", self.ground.height_m.unwrap_or(0.0), -430.0, 9000.0),
+            ("ground.height_m", self.ground.height_m.unwrap_or(0.0), -430.0, HIGHEST_LAND_M),
         ];
         let aerosols = [
             ("aerosol", Some(&self.aerosol)),
@@ -201,6 +216,14 @@ impl Atmosphere {
         self.observer.pressure_mbar.unwrap_or_else(|| standard_pressure_mbar(height_m))
     }
 
+    /// Temperature at an observer of the given height, degrees Celsius.
+    pub fn temperature_c_at(&self, height_m: f64) -> f64 {
+        /// By how much a usual night is colder than the standard.
+        const COLDER_K: f64 = 5.0;
+        let usual_c = || standard_temperature_c(height_m) - COLDER_K;
+        self.observer.temperature_c.unwrap_or_else(|| usual_c().max(COLDEST_C))
+    }
+
     /// How dense the air is over the observer, relative to the US Standard Atmosphere 1976.
     pub fn density_ratio_at(&self, height_m: f64) -> f64 {
         self.pressure_mbar_at(height_m) / standard_pressure_mbar(height_m)
@@ -211,7 +234,7 @@ impl Atmosphere {
         ObserverAir {
             height_m: 1000.0 * self.eye_km(height_m),
             pressure_mbar: self.pressure_mbar_at(height_m),
-            temperature_c: self.observer.temperature_c,
+            temperature_c: self.temperature_c_at(height_m),
             relative_humidity: self.observer.relative_humidity,
             wavelength_nm,
         }
@@ -231,9 +254,17 @@ impl Atmosphere {
             .unwrap_or_else(|_| Refraction::new(air.pressure_mbar, air.temperature_c))
     }
 
-    /// [`Atmosphere::validate`], and that an observer of the given height can see through the air.
+    /// [`Atmosphere::validate`], and that an observer of the given height can stand in the air and see
+    /// through it.
     pub fn validate_at(&self, height_m: f64) -> Result<(), AirError> {
         self.validate()?;
+        if self.density_ratio_at(height_m) > DENSEST {
+            return Err(AirError::Dense {
+                pressure_mbar: self.pressure_mbar_at(height_m),
+                height_m,
+                standard_mbar: standard_pressure_mbar(height_m),
+            });
+        }
         let ground_m = 1000.0 * self.ground_km(height_m);
         match self.paths.refracted {
             true => Rays::over_ground(&self.observer_air(height_m, SEEN_NM), ground_m).map(|_| ()),

@@ -136,6 +136,8 @@ fn columns_agree_with_stepping_along_the_ray() {
         (0.0, [90.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.0]),
         (2635.0, [60.0, 5.0, 1.0, 0.0, -0.5, -1.0, -1.4]),
     ] {
+        // The standard weather of the height bends light as the standard atmosphere does.
+        air.observer.temperature_c = Some(15.0 - 6.5e-3 * height_m);
         for altitude_deg in altitudes_deg {
             let altitude = Angle::from_deg(altitude_deg);
             assert!(altitude >= horizon_altitude(&air, height_m));
@@ -147,7 +149,7 @@ fn columns_agree_with_stepping_along_the_ray() {
                 ("aerosol", fast.aerosols_550[0], slow.aerosol_550),
             ] {
                 let error = fast / slow - 1.0;
-                assert!(error.abs() < 2e-4, "{what}, {height_m} m, {altitude_deg}°: {error:e}");
+                assert!(error.abs() < 3e-4, "{what}, {height_m} m, {altitude_deg}°: {error:e}");
             }
         }
     }
@@ -157,7 +159,7 @@ fn columns_agree_with_stepping_along_the_ray() {
 fn bennett_agrees_with_the_bending_of_the_ray() {
     // The standard atmosphere at sea level: 1013.25 mbar, 15 degrees Celsius.
     let mut air = Atmosphere::default();
-    air.observer.temperature_c = 15.0;
+    air.observer.temperature_c = Some(15.0);
     let refraction = air.refraction_at(0.0);
     // The formula stays within 0.1' of this air down to 5 degrees; at the horizon its standard
     // air and this one differ by an arcminute.

@@ -4,6 +4,7 @@
 use nocturne::air::Atmosphere;
 use nocturne::air::aerosol::{Aerosol, AerosolProfile, PhaseLaw};
 use nocturne::air::refraction::Refraction;
+use nocturne::air::standard::standard_pressure_mbar;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
 use nocturne::catalog::{MoonMap, Star};
 use nocturne::ephemeris::{Body, Ephemeris};
@@ -299,7 +300,12 @@ fn stars() -> impl Strategy<Value = Vec<Star>> {
 fn airs() -> impl Strategy<Value = Atmosphere> {
     let aerosol =
         (prop_oneof![Just(0.0), 0.0..=3.0], -1.0..=4.0, 0.5..=10.0, 0.0..=1.0, -0.9..=0.9);
-    let rest = (0.0..=1000.0, 0.0..=1.0, proptest::option::of(1e-3..=1100.0), -90.0..=60.0);
+    let rest = (
+        0.0..=1000.0,
+        0.0..=1.0,
+        proptest::option::of(1e-3..=1100.0),
+        proptest::option::of(-20.0..=40.0),
+    );
     (aerosol, rest).prop_map(|((depth, exponent, scale_km, albedo, asymmetry), rest)| {
         let (ozone_du, ground_albedo, pressure_mbar, temperature_c) = rest;
         let mut air = Atmosphere::default();
@@ -336,7 +342,11 @@ fn scenes() -> impl Strategy<Value = SmallScene> {
     (instants(), places(), cameras(), airs(), layers(), stars())
 }
 
-fn planned((instant, place, camera, air, layers, stars): SmallScene) -> FramePlan {
+fn planned((instant, place, camera, mut air, layers, stars): SmallScene) -> FramePlan {
+    // Denser air is refused.
+    let densest = 2.99 * standard_pressure_mbar(place.height_m);
+    air.observer.pressure_mbar = air.observer.pressure_mbar.map(|mbar| mbar.min(densest));
+    air.validate_at(place.height_m).unwrap();
     let tolerance = camera.pixel_angle() * 0.1;
     let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance).unwrap();
     let night = Night::of(sky, stars, &air);

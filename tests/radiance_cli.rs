@@ -116,7 +116,7 @@ fn random_paths_state_their_error_and_repeat() {
             && at("sun_elevation_deg") >= -3.0
             && at("wavelength_nm") == 550.0
     };
-    let asked: Vec<&Row> = truth.iter().filter(chosen).step_by(4).collect();
+    let asked: Vec<&Row> = truth.iter().filter(chosen).step_by(2).collect();
     assert!(asked.len() > 3);
     let mut file = HEAD.to_owned() + "\n";
     for row in &asked {
@@ -228,8 +228,8 @@ fn a_scene_is_asked_in_its_own_directions() {
     );
     let given = csv(&run.stdout);
     let y = |row: usize| number(&given[row], "Y_cd_m2");
-    // The Sun stands in the west; the ground is darker than the sky.
-    assert!(y(0) > y(1) && y(1) > y(2) && y(3) > 10.0 && y(3) < y(2), "{}", run.stdout);
+    // The Sun stands in the west, half way up; the ground is darker than the low sky.
+    assert!(y(0) > y(1) && y(1) > y(2) && y(3) > 1000.0 && y(3) < y(1), "{}", run.stdout);
     let blue = number(&given[2], "Z_cd_m2") / y(2);
     assert!(blue > 1.3, "{blue}");
 }
@@ -296,6 +296,6 @@ fn what_makes_no_sense_is_refused_in_a_sentence() {
 fn bent_light_is_said_to_be_left_out() {
     let rows = "sun_elevation_deg,view_elevation_deg,rel_azimuth_deg\n30,90,0\n";
     let line = "radiance --rows rows.csv --tier reference --paths 500 --atmosphere clear";
-    let run = nocturne(words(line)).with_file("rows.csv", rows).done();
-    assert!(run.stderr.contains("straight rays"), "{run}");
+    let run = nocturne(words(line)).with_file("rows.csv", rows).run();
+    assert!(run.code() == Some(0) && run.stderr.contains("straight rays"), "{run}");
 }

@@ -253,7 +253,7 @@ fn what_was_solved_once_is_not_solved_again() {
     assert_eq!(radiance(solved), radiance(found));
     // Other air is another matter; weather that does not change it is not.
     let mut warmer = air.clone();
-    warmer.observer.temperature_c = 30.0;
+    warmer.observer.temperature_c = Some(30.0);
     assert!(get(&warmer, &at_once).is_some());
     let mut greener = air.clone();
     greener.ground.albedo = 0.2;

@@ -144,7 +144,7 @@ impl<'a, A: RefractiveAir> Ray<'a, A> {
                 step_to(self.u_km(level_km), 2.0);
             }
         }
-        if self.lowest_km < self.observer_km {
+        if self.lowest_u_km < self.observer_u_km {
             step_to(self.observer_u_km, 2.0);
         }
         for &level_km in levels_km {

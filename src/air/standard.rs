@@ -7,6 +7,9 @@
 /// Pressure at sea level, millibars.
 pub const SEA_LEVEL_PRESSURE_MBAR: f64 = 1013.25;
 
+/// Zero of the Celsius scale, kelvin.
+pub(super) const ICE_POINT_K: f64 = 273.15;
+
 /// Radius that turns geometric into geopotential height, kilometres.
 const GEOPOTENTIAL_RADIUS_KM: f64 = 6356.766;
 /// `g0 M0 / R*`, kelvin per geopotential kilometre.
@@ -72,6 +75,11 @@ fn temperature_and_pressure(height_km: f64) -> (f64, f64) {
         (layer.base_k / temperature_k).powf(HYDROSTATIC_K_PER_KM / layer.slope_k_per_km)
     };
     (temperature_k, layer.base_mbar * pressure_ratio)
+}
+
+/// Temperature at a geometric height above sea level, degrees Celsius; -0.5 to 120 km.
+pub fn standard_temperature_c(height_m: f64) -> f64 {
+    temperature_and_pressure(height_m / 1000.0).0 - ICE_POINT_K
 }
 
 /// Pressure at a geometric height above sea level, millibars; -0.5 to 120 km.

@@ -337,6 +337,7 @@ mod tests {
         let at = |optical_depth: f64, height_m: f64, altitude_deg: f64| {
             let mut air = Atmosphere::default();
             air.aerosol.optical_depth_550 = optical_depth;
+            air.ground.height_m = Some(0.0);
             let sky = NightSky::default().through(&air, height_m).unwrap();
             sky.luminance(height_m / 1000.0, deg(altitude_deg)).y
         };

@@ -138,6 +138,9 @@ mod tests {
                         (quick.v, exact.v),
                     ] {
                         let error = (a / b - 1.0).abs();
+                        if error > 1.5e-3 {
+                            println!("{height_m} {step} {} {b_v} {error}", altitude.deg());
+                        }
                         worst = worst.max(error);
                     }
                 }

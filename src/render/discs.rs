@@ -21,7 +21,7 @@ impl DiscPass {
         let gpu = frame.gpu;
         let uniform = DiscUniform::of(disc);
         let uniform =
-            gpu.buffer(disc.label, bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
+            gpu.buffer(disc.label, bytemuck::bytes_of(&uniform), wgpu::BufferUsages::STORAGE);
         let albedo: &[f32] = match &disc.shape.law {
             SurfaceLaw::Moon { map } => &map.albedo,
             // A binding cannot be empty; the law does not read it.

@@ -125,7 +125,7 @@ impl Tables {
         let phase = phase.map_or(&[0.0f32; 2][..], |phase| phase.values());
         let storage = |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE);
         Tables {
-            uniform: gpu.buffer("sky", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
+            uniform: gpu.buffer("sky", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::STORAGE),
             table: storage("sky table", bytemuck::cast_slice(&table(sky))),
             phase: storage("phase function", bytemuck::cast_slice(phase)),
         }

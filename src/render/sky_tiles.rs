@@ -1,7 +1,7 @@
 //! How a picture of the sky is cut into tiles.
 //!
 //! A square tile in which the light is nearly straight between its corners is drawn as two triangles
-//! with the light of the corners; a tile that is not is cut in four, down to 16 pixels, and the rest
+//! with the light of the corners; a tile that is not is cut in four, down to 8 pixels, and the rest
 //! is looked up pixel by pixel. Whether it is straight is tried in the middle and on the edges, with
 //! the CPU's twin of the shader, in all of X, Y, Z and V. Around a source, whose aureole could hide
 //! between these points, tiles must be small against their distance from it. Tiles that the horizon
@@ -13,7 +13,7 @@
 use rayon::prelude::*;
 
 use crate::camera::Camera;
-use crate::frame::{Apparent, Dir};
+use crate::frame::{Apparent, Dir, Rot, View};
 use crate::plan::SkyPlan;
 use crate::units::{Angle, Xyzv};
 
@@ -36,9 +36,12 @@ pub struct SkyTiles {
     pub exact: Vec<[u32; 4]>,
 }
 
-/// Edge of the largest tiles, pixels, and how often one may be cut in four.
+/// Edges of the largest and of the smallest tiles, pixels.
 const LARGEST_PX: u32 = 64;
-const CUTS: u32 = 2;
+const SMALLEST_PX: u32 = 8;
+/// Apart so far stand the points that are looked at, pixels; and how many along an edge of a block.
+const POINT_PX: u32 = SMALLEST_PX / 2;
+const POINTS: usize = (LARGEST_PX / POINT_PX) as usize + 1;
 /// Most that the light half-way between corners may differ from straight, relative.
 const STRAIGHT: f64 = 1.2e-3;
 /// A straight tile reaches over this share of its distance from a source, at most.
@@ -46,7 +49,7 @@ const REACH_TO_SOURCE: f64 = 0.5;
 /// The horizon stays at least this share of a tile's reach away from the points that are tried.
 const REACH_TO_HORIZON: f64 = 0.1;
 
-/// Cuts a picture. Where there is no sky there are no tiles.
+/// Cuts a picture. Where there is no sky there are no tiles; those at the edge reach over it.
 pub fn tiles(sky: &SkyPlan, camera: &Camera, detail: SkyDetail) -> SkyTiles {
     let (width, height) = (camera.width_px, camera.height_px);
     if detail == SkyDetail::EveryPixel {
@@ -58,14 +61,12 @@ pub fn tiles(sky: &SkyPlan, camera: &Camera, detail: SkyDetail) -> SkyTiles {
         .map(|row| {
             let mut tiles = SkyTiles::default();
             for column in 0..width.div_ceil(LARGEST_PX) {
-                let first = [column * LARGEST_PX, row * LARGEST_PX];
-                let tile = [
-                    first[0],
-                    first[1],
-                    width.min(first[0] + LARGEST_PX),
-                    height.min(first[1] + LARGEST_PX),
-                ];
-                cutter.cut(tile, CUTS, &mut tiles);
+                let block = [column * LARGEST_PX, row * LARGEST_PX];
+                Block { cutter: &cutter, first_px: block, seen: [[None; POINTS]; POINTS] }.cut(
+                    [0, 0],
+                    LARGEST_PX,
+                    &mut tiles,
+                );
             }
             tiles
         })
@@ -87,6 +88,7 @@ struct Seen {
 struct Cutter<'a> {
     sky: &'a SkyPlan,
     camera: &'a Camera,
+    apparent_from_view: Rot<Apparent, View>,
     sources: Vec<Dir<Apparent>>,
 }
 
@@ -97,31 +99,42 @@ impl Cutter<'_> {
             .flatten()
             .map(|s| Dir::from_azimuth_altitude(s.azimuth, s.view.source_elevation))
             .collect();
-        Cutter { sky, camera, sources }
+        Cutter { sky, camera, apparent_from_view: camera.view_from_apparent().inverse(), sources }
     }
 
-    fn see(&self, x: f64, y: f64) -> Option<Seen> {
-        let dir =
-            self.camera.view_from_apparent().inverse() * self.camera.view_from_pixel([x, y])?;
+    fn see(&self, pixel: [f64; 2]) -> Option<Seen> {
+        let dir = self.apparent_from_view * self.camera.view_from_pixel(pixel)?;
         let over_horizon = dir.altitude() - self.sky.horizon;
         Some(Seen { dir, over_horizon, light: self.sky.luminance(dir) })
     }
+}
 
-    fn cut(&self, tile: [u32; 4], cuts: u32, tiles: &mut SkyTiles) {
-        if !self.has_sky(tile) {
+/// One of the largest tiles while it is cut: its points are seen once, and by all its parts.
+struct Block<'a> {
+    cutter: &'a Cutter<'a>,
+    first_px: [u32; 2],
+    /// By row and column, every [`POINT_PX`] pixels: not looked at yet, or what is seen, if anything.
+    seen: [[Option<Option<Seen>>; POINTS]; POINTS],
+}
+
+impl Block<'_> {
+    /// Given the place of a part in the block and its edge, pixels.
+    fn cut(&mut self, [x, y]: [u32; 2], edge: u32, tiles: &mut SkyTiles) {
+        let (camera, [x0, y0]) = (self.cutter.camera, self.first_px);
+        let tile = [x0 + x, y0 + y, x0 + x + edge, y0 + y + edge];
+        let is_outside = tile[0] >= camera.width_px || tile[1] >= camera.height_px;
+        if is_outside || !self.has_sky(tile) {
             return;
         }
-        let [x0, y0, x1, y1] = tile;
-        if self.is_straight(tile) {
+        if self.is_straight([x, y], edge) {
             tiles.smooth.push(tile);
-        } else if cuts == 0 {
-            tiles.exact.push(tile);
+        } else if edge == SMALLEST_PX {
+            let last = [tile[2].min(camera.width_px), tile[3].min(camera.height_px)];
+            tiles.exact.push([tile[0], tile[1], last[0], last[1]]);
         } else {
-            let half = LARGEST_PX >> (CUTS - cuts + 1);
-            for [x, y] in [[x0, y0], [x0 + half, y0], [x0, y0 + half], [x0 + half, y0 + half]] {
-                if x < x1 && y < y1 {
-                    self.cut([x, y, x1.min(x + half), y1.min(y + half)], cuts - 1, tiles);
-                }
+            let half = edge / 2;
+            for part in [[x, y], [x + half, y], [x, y + half], [x + half, y + half]] {
+                self.cut(part, half, tiles);
             }
         }
     }
@@ -129,16 +142,24 @@ impl Cutter<'_> {
     /// Whether any of a tile sees sky: the plane of every projection has sky at the point that is
     /// nearest to the centre, if anywhere.
     fn has_sky(&self, [x0, y0, x1, y1]: [u32; 4]) -> bool {
+        let camera = self.cutter.camera;
         let nearest = |low: u32, high: u32, edge: u32| {
-            (f64::from(edge) / 2.0).clamp(f64::from(low), f64::from(high))
+            (f64::from(edge) / 2.0).clamp(f64::from(low), f64::from(high.min(edge)))
         };
-        let (camera, x) = (self.camera, nearest(x0, x1, self.camera.width_px));
+        let x = nearest(x0, x1, camera.width_px);
         camera.view_from_pixel([x, nearest(y0, y1, camera.height_px)]).is_some()
     }
 
-    fn is_straight(&self, tile: [u32; 4]) -> bool {
-        let [x0, y0, x1, y1] = tile.map(f64::from);
-        let (xm, ym) = (0.5 * (x0 + x1), 0.5 * (y0 + y1));
+    /// What is seen at a place in the block, pixels.
+    fn see(&mut self, x: u32, y: u32) -> Option<Seen> {
+        let point = &mut self.seen[(y / POINT_PX) as usize][(x / POINT_PX) as usize];
+        let [x0, y0] = self.first_px;
+        *point.get_or_insert_with(|| self.cutter.see([f64::from(x0 + x), f64::from(y0 + y)]))
+    }
+
+    fn is_straight(&mut self, [x0, y0]: [u32; 2], edge: u32) -> bool {
+        let (xm, ym) = (x0 + edge / 2, y0 + edge / 2);
+        let (x1, y1) = (x0 + edge, y0 + edge);
         let Some(centre) = self.see(xm, ym) else { return false };
         let mut corners = [centre; 4];
         for (corner, [x, y]) in corners.iter_mut().zip([[x0, y0], [x1, y0], [x0, y1], [x1, y1]]) {
@@ -147,14 +168,15 @@ impl Cutter<'_> {
         }
         let reach =
             corners.iter().map(|c| c.dir.separation(centre.dir)).fold(Angle::ZERO, Angle::max);
-        let margin = reach * REACH_TO_HORIZON + self.camera.pixel_angle();
+        let margin = reach * REACH_TO_HORIZON + self.cutter.camera.pixel_angle();
         let above = centre.over_horizon > Angle::ZERO;
         let clear = |seen: &Seen| {
             if above { seen.over_horizon > margin } else { seen.over_horizon < -margin }
         };
         let far = |source: &Dir<Apparent>| centre.dir.separation(*source) * REACH_TO_SOURCE > reach;
         // Far below the horizon no aureole is seen, but the rule costs nothing.
-        if !corners.iter().all(clear) || !clear(&centre) || !self.sources.iter().all(far) {
+        let mut points = corners.iter().chain([&centre]);
+        if !points.all(clear) || !self.cutter.sources.iter().all(far) {
             return false;
         }
         // The triangles meet along the edge from the second corner to the third.

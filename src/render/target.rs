@@ -52,7 +52,7 @@ impl<'g> Target<'g> {
         });
         let uniform = CameraUniform::of(camera);
         Ok(Target {
-            camera: gpu.buffer("camera", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
+            camera: gpu.buffer("camera", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::STORAGE),
             view: texture.create_view(&Default::default()),
             texture,
             encoder: gpu.device.create_command_encoder(&Default::default()),

@@ -1,5 +1,8 @@
 //! What crosses to the GPU: f64 becomes f32 here and nowhere else. The layouts are those of the
 //! structs of the same names in `shaders/`.
+//!
+//! They are bound as read-only storage: the software driver compiles a shader whose branches hang on
+//! a uniform anew for every frame, some 10 ms for the sky.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DMat3;

@@ -12,7 +12,7 @@
 use super::refractivity::{DRY_AIR_KG_MOL, Refractivity, WATER_KG_MOL, vapour_mbar};
 use crate::air::ray::{Bending, RefractiveAir};
 use crate::air::standard::{
-    HYDROSTATIC_K_PER_KM, LAYERS, Layer, geopotential_km, geopotential_slope, layer_at,
+    HYDROSTATIC_K_PER_KM, ICE_POINT_K, LAYERS, Layer, geopotential_km, geopotential_slope, layer_at,
 };
 
 /// Power of the temperature by which the pressure of vapour falls (Hohenkerk & Sinclair 1985).
@@ -21,7 +21,6 @@ const VAPOUR_POWER: f64 = 18.36;
 const DRY_POWER: f64 = -HYDROSTATIC_K_PER_KM / LAYERS[0].slope_k_per_km;
 /// How much lighter than dry air vapour is.
 const LIGHTNESS: f64 = 1.0 - WATER_KG_MOL / DRY_AIR_KG_MOL;
-const ICE_POINT_K: f64 = 273.15;
 
 /// The air at an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]

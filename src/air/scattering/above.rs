@@ -76,11 +76,11 @@ impl DiffuseQuality {
     };
     /// For skies that are the same in every azimuth, in a hurry: 1 % in clear air, 3 % in thick haze.
     pub const AXIAL: DiffuseQuality = DiffuseQuality {
-        degree: 8,
+        degree: 10,
         order: 0,
         altitudes: 28,
-        above: 10,
-        below: 9,
+        above: 12,
+        below: 11,
         steps: RaySteps { levels: 24, longest_km: 40.0, longest_in_aerosol_km: 20.0 },
         view: RaySteps { levels: 40, longest_km: 30.0, longest_in_aerosol_km: 6.0 },
     };

@@ -11,14 +11,22 @@ const DARK: f64 = -0.035;
 
 /// Irradiance of level ground by the source itself, per unit irradiance outside the air; one band.
 #[derive(Debug, Clone)]
-pub(crate) struct DirectOnGround(Vec<Lanes>);
+pub(crate) struct DirectOnGround {
+    /// Cosine of the true zenith distance at which the ground is dark.
+    dark: f64,
+    nodes: Vec<Lanes>,
+}
 
 impl DirectOnGround {
     pub fn new(beams: &Beams, source: &SourceTable, ground_km: f64) -> DirectOnGround {
         let row = source.row(ground_km);
+        // A point that nothing raises goes at once.
+        let is_point = beams.disc_radius() == Angle::ZERO;
+        let dark =
+            if is_point && beams.refraction(ground_km, 0.0) == Angle::ZERO { 0.0 } else { DARK };
         let node = |i: usize| {
             let share = i as f64 / (NODES - 1) as f64;
-            let mu = DARK + (1.0 - DARK) * share * share;
+            let mu = dark + (1.0 - dark) * share * share;
             let arriving = source.irradiance(&row, mu);
             if arriving == Lanes::ZERO {
                 return Lanes::ZERO;
@@ -26,18 +34,18 @@ impl DirectOnGround {
             let altitude = Angle::from_rad(mu.asin()) + beams.refraction(ground_km, mu);
             arriving * visible_altitude(altitude, beams.disc_radius()).sin() as f32
         };
-        DirectOnGround((0..NODES).map(node).collect())
+        DirectOnGround { dark, nodes: (0..NODES).map(node).collect() }
     }
 
     /// For a source whose true zenith distance has the cosine `mu`.
     #[inline(always)]
     pub fn at(&self, mu: f64) -> Lanes {
-        if mu <= DARK {
+        if mu <= self.dark {
             return Lanes::ZERO;
         }
-        let place = ((mu - DARK) / (1.0 - DARK)).min(1.0).sqrt() * (NODES - 1) as f64;
+        let place = ((mu - self.dark) / (1.0 - self.dark)).min(1.0).sqrt() * (NODES - 1) as f64;
         let low = (place as usize).min(NODES - 2);
-        self.0[low].lerp(self.0[low + 1], (place - low as f64) as f32)
+        self.nodes[low].lerp(self.nodes[low + 1], (place - low as f64) as f32)
     }
 }
 

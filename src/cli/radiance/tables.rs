@@ -43,18 +43,21 @@ fn refused(error: ScatteringError) -> CliError {
     CliError::Usage(error.to_string())
 }
 
+fn coarse(group: &Group, wavelengths_nm: &[f64]) -> Result<ScatteringTables, CliError> {
+    ScatteringTables::for_observer(group.air, group.height_m, wavelengths_nm, Quality::PREVIEW)
+        .map_err(refused)
+}
+
+fn place_of(nm: f64, wavelengths_nm: &[f64]) -> Option<usize> {
+    wavelengths_nm.iter().position(|other| *other == nm)
+}
+
 /// Answers by coarse tables, solved for the wavelengths asked for and for the nodes of the spectrum.
 pub fn fast(group: &Group, eyes: &Eyes) -> Result<Vec<(usize, Answer)>, CliError> {
-    let solve = |wavelengths: &[f64]| {
-        ScatteringTables::for_observer(group.air, group.height_m, wavelengths, Quality::PREVIEW)
-            .map_err(refused)
-    };
     let wavelengths = group.wavelengths_nm();
-    let nodes = solve(&SKY_NODES_NM)?;
-    let lines = if wavelengths.is_empty() { None } else { Some(solve(&wavelengths)?) };
-    let place = |asked: &Asked| {
-        asked.wavelength_nm.and_then(|nm| wavelengths.iter().position(|other| *other == nm))
-    };
+    let nodes = coarse(group, &SKY_NODES_NM)?;
+    let lines = if wavelengths.is_empty() { None } else { Some(coarse(group, &wavelengths)?) };
+    let place = |asked: &Asked| place_of(asked.wavelength_nm?, &wavelengths);
     let eye_km = group.eye_km();
     let of_geometry = |rows: &Vec<(usize, Asked)>| -> Vec<(usize, Answer)> {
         let Some((_, Asked { sun, view, .. })) = rows.first() else { return Vec::new() };
@@ -101,6 +104,10 @@ pub fn render(
     let rays = tables.sky_rays(group.eye_km(), COMPUTED_SHAPE);
     let of_eyes = solved.sums(&sun::irradiance_1au());
     let wavelengths = group.wavelengths_nm();
+    // What is not scattered is not made of the nodes: pictures take each wavelength through the air.
+    let asks_of_ground =
+        group.rows.iter().any(|(_, a)| a.view.is_none() && a.wavelength_nm.is_some());
+    let unscattered = asks_of_ground.then(|| coarse(group, &wavelengths)).transpose()?;
     // Four wavelengths ride where X, Y, Z and V do.
     let of_lines: Vec<(&[f64], SpectralSums)> =
         wavelengths.chunks(SUMS).map(|lines| (lines, channels(lines))).collect();
@@ -109,7 +116,7 @@ pub fn render(
         let Some((_, Asked { sun, view, .. })) = rows.first() else { continue };
         let cos_sun = sun.sin();
         if view.is_none() {
-            answers.extend(on_ground(tables, cos_sun, &rows, eyes));
+            answers.extend(on_ground(tables, unscattered.as_ref(), cos_sun, &rows, eyes));
             continue;
         }
         let view = tables.sky_view(&rays, cos_sun);
@@ -129,9 +136,7 @@ pub fn render(
             (*row, Answer { diffuse_light: light.y, ..Answer::default() })
         }));
         for (lines, sums) in &of_lines {
-            let channel = |asked: &Asked| {
-                asked.wavelength_nm.and_then(|nm| lines.iter().position(|line| *line == nm))
-            };
+            let channel = |asked: &Asked| place_of(asked.wavelength_nm?, lines);
             let places: Vec<(usize, usize)> = (0..rows.len())
                 .filter_map(|place| Some((place, channel(&rows[place].1)?)))
                 .collect();
@@ -157,21 +162,25 @@ fn channels(lines: &[f64]) -> SpectralSums {
     SpectralSums::new(&reconstruction_matrix(&SKY_NODES_NM, lines), &weights)
 }
 
-/// Irradiance of the ground, other wavelengths out of the nodes.
+/// Irradiance of the ground: by the sky, other wavelengths out of the nodes, and by the Sun itself, out
+/// of the tables of what is not scattered.
 fn on_ground(
     tables: &ScatteringTables,
+    unscattered: Option<&ScatteringTables>,
     cos_sun: f64,
     rows: &[(usize, Asked)],
     eyes: &Eyes,
 ) -> Vec<(usize, Answer)> {
     let (diffuse, direct) = tables.ground_irradiance(cos_sun);
     let [diffuse_light, direct_light] = [&diffuse, &direct].map(|nodes| eyes.see(nodes).y);
+    let unscattered = unscattered.map(|lines| (lines, lines.ground_irradiance(cos_sun).1));
     let answer = |asked: &Asked| {
-        let line = |nodes: &[f64]| {
-            let nm = asked.wavelength_nm?;
-            reconstruction_matrix(&SKY_NODES_NM, &[nm]).spectrum(nodes).first().copied()
-        };
-        let (diffuse, direct) = (line(&diffuse), line(&direct));
+        let from_nodes = |nm| reconstruction_matrix(&SKY_NODES_NM, &[nm]).spectrum(&diffuse);
+        let diffuse = asked.wavelength_nm.and_then(|nm| from_nodes(nm).first().copied());
+        let direct =
+            asked.wavelength_nm.zip(unscattered.as_ref()).and_then(|(nm, (lines, light))| {
+                place_of(nm, lines.wavelengths_nm()).map(|place| light[place])
+            });
         Answer { diffuse, direct, diffuse_light, direct_light, ..Answer::default() }
     };
     rows.iter().map(|(row, asked)| (*row, answer(asked))).collect()
