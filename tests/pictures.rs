@@ -10,6 +10,7 @@ use nocturne::ephemeris::Body;
 use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::frame::{Apparent, Dir, Horizon};
 use nocturne::image::HdrFrame;
+use nocturne::light::sun::LimbDarkening;
 use nocturne::plan::disc::Disc;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
@@ -323,6 +324,7 @@ fn limbs_in_the_narrowest_field(renderer: &Renderer) -> Result<(), Failed> {
     (scene.camera.width_px, scene.camera.height_px) = (960, 160);
     let (_, _, _, night) = laid(&scene)?;
     let sun = &night.sky.sun;
+    let law = LimbDarkening::at_nm(555.0);
     let centre = sun.dir.vector();
     let side = centre.any_orthonormal_vector();
     let across = centre.cross(side);
@@ -337,37 +339,37 @@ fn limbs_in_the_narrowest_field(renderer: &Renderer) -> Result<(), Failed> {
         // Turned so that the limb runs upright through the picture.
         for roll_deg in [0.0, 90.0] {
             scene.camera.roll_deg = roll_deg;
-            let (frame, setting, _) = drawn(renderer, &scene)?;
+            let (plan, _, setting, _) = laid(&scene)?;
+            let frame = renderer.frame(&plan)?.frame;
+            let band = &plan.discs.first().ok_or("no Sun")?.bands[0];
+            let middle = band.nodes[band.nodes.len() / 2].luminance;
             let camera = &setting.camera;
-            // Along a row, and along a column: the light over that of a pixel well inside is a length.
-            let inside = |pixel: [f64; 2]| -> Option<bool> {
+            // Cosine of the emission angle, where there is Sun.
+            let emission = |pixel: [f64; 2]| -> Option<f64> {
                 let view = camera.view_from_pixel(pixel)?;
                 let dir = camera.view_from_apparent().inverse() * view;
-                Some((dir.vector() - centre * dir.vector().dot(centre)).length() < sin_radius)
+                let off = dir.vector() - centre * dir.vector().dot(centre);
+                let share = off.length() / sin_radius;
+                (share < 1.0).then(|| (1.0 - share * share).sqrt())
             };
+            let inside = |pixel: [f64; 2]| emission(pixel).is_some();
             for x in (3..camera.width_px - 3).step_by(97) {
-                let (mut lit, mut expected, mut brightest) = (0.0, 0.0, 0.0f64);
+                // Light of the column, in pixels as bright as the middle of the disc.
+                let (mut lit, mut expected) = (0.0, 0.0);
                 for y in 0..camera.height_px {
-                    brightest = brightest.max(frame.xyzv(x, y).y);
+                    lit += frame.xyzv(x, y).y / middle.y;
+                    const STEPS: u32 = 50;
+                    for step in 0..STEPS {
+                        let row = f64::from(y) + (f64::from(step) + 0.5) / f64::from(STEPS);
+                        let mu = emission([f64::from(x) + 0.5, row]);
+                        expected +=
+                            mu.map_or(0.0, |mu| law.relative_to_centre(mu)) / f64::from(STEPS);
+                    }
                 }
-                for y in 0..camera.height_px {
-                    // The limb is 0.3 as bright as the middle, and the field is all limb.
-                    lit += frame.xyzv(x, y).y / brightest.max(1.0);
-                    let steps = 50;
-                    let rows = (0..steps).filter(|step| {
-                        let row = f64::from(y) + (f64::from(*step) + 0.5) / f64::from(steps);
-                        inside([f64::from(x) + 0.5, row]) == Some(true)
-                    });
-                    expected += rows.count() as f64 / f64::from(steps);
-                }
-                // Limb darkening takes a little of the light near the limb.
-                let all = f64::from(camera.height_px);
-                if expected > 0.0 && expected < all {
-                    let off = lit - expected;
-                    check((-0.03 * expected - 0.6..0.1).contains(&off), || {
-                        format!("{turn_deg}°, column {x}: {lit:.2} px lit, not {expected:.2}")
-                    })?;
-                }
+                let within = 0.01 * expected + 0.1;
+                check((lit - expected).abs() < within, || {
+                    format!("{turn_deg}°, column {x}: {lit:.2} px lit, not {expected:.2}")
+                })?;
                 // The row in which the limb is, from how much of its pixel is lit.
                 let edges: Vec<u32> = (1..camera.height_px - 1)
                     .filter(|&y| {
@@ -386,7 +388,7 @@ fn limbs_in_the_narrowest_field(renderer: &Renderer) -> Result<(), Failed> {
                     let expected = (0..steps)
                         .filter(|step| {
                             let row = f64::from(y) + (f64::from(*step) + 0.5) / f64::from(steps);
-                            inside([f64::from(x) + 0.5, row]) == Some(true)
+                            inside([f64::from(x) + 0.5, row])
                         })
                         .count() as f64
                         / f64::from(steps);
@@ -401,12 +403,13 @@ fn limbs_in_the_narrowest_field(renderer: &Renderer) -> Result<(), Failed> {
 }
 
 fn setting_sun_has_its_rims(renderer: &Renderer) -> Result<(), Failed> {
-    // Whole, cut by the horizon, and almost gone.
+    // Whole, cut by the horizon, and almost gone. `expected` knows one refraction: red, which stands
+    // lower, loses a little more.
     for (utc, field_deg, within) in [
-        ("2026-03-20T18:08:10Z", 0.7, 0.01),
-        ("2026-03-20T18:09:20Z", 0.7, 0.01),
-        ("2026-03-20T18:10:20Z", 0.7, 0.02),
-        ("2026-03-20T18:09:20Z", 6.0, 0.02),
+        ("2026-03-20T18:08:10Z", 0.7, 0.015),
+        ("2026-03-20T18:09:20Z", 0.7, 0.025),
+        ("2026-03-20T18:10:20Z", 0.7, 0.05),
+        ("2026-03-20T18:09:20Z", 6.0, 0.025),
         ("2026-03-20T18:09:20Z", 30.0, 0.03),
     ] {
         let mut scene = sunset();
@@ -430,7 +433,7 @@ fn setting_sun_has_its_rims(renderer: &Renderer) -> Result<(), Failed> {
             let error = got / wanted - 1.0;
             check(error.abs() < within, || format!("{utc}, {field_deg}°: off by {error:.4}"))?;
         }
-        if field_deg > 1.0 || within > 0.01 {
+        if field_deg > 1.0 || within > 0.03 {
             continue;
         }
         // Along the middle: green above, red below, and the colour of the Sun between. The upper rim is
@@ -443,7 +446,11 @@ fn setting_sun_has_its_rims(renderer: &Renderer) -> Result<(), Failed> {
         check(top < 0.9 * middle, || format!("{utc}: the upper rim is not green: {top} {middle}"))?;
         if utc.ends_with("08:10Z") {
             let bottom = redness(rows[last]);
-            check(bottom > 1.1 * redness(rows[last - 8]), || format!("{utc}: lower rim {bottom}"))?;
+            let rise = |outer: f64, inner: usize| outer / redness(rows[last - inner]) - 1.0;
+            let (at_rim, inside) = (rise(bottom, 2), rise(redness(rows[last - 6]), 8));
+            check(at_rim > 0.02 && inside < 0.25 * at_rim, || {
+                format!("{utc}: the lower rim is not red: {at_rim} {inside}")
+            })?;
         }
     }
     Ok(())
@@ -469,7 +476,7 @@ fn sky_is_that_of_its_tables(renderer: &Renderer) -> Result<(), Failed> {
             }
             let (drawn, expected) = (frame.xyzv(x, y), plan.sky.luminance(dir));
             let error = (drawn.y / expected.y - 1.0).abs().max((drawn.v / expected.v - 1.0).abs());
-            check(error < 1e-3, || format!("pixel {x}, {y} is off by {error:.5}"))?;
+            check(error < 2e-3, || format!("pixel {x}, {y} is off by {error:.5}"))?;
         }
     }
     Ok(())
