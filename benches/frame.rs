@@ -20,12 +20,13 @@ use nocturne::light::night::Night;
 use nocturne::light::star_light::StarLight;
 use nocturne::light::sun;
 use nocturne::plan::lay::lay_in;
-use nocturne::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
+use nocturne::plan::skylight::{COMPUTED_SHAPE, KeptAir, SolvedAir};
 use nocturne::plan::{FramePlan, SkyPlan, Splat};
 use nocturne::render::Renderer;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
+use nocturne::store::Store;
 use nocturne::units::{AU_KM, Angle};
 
 /// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
@@ -141,9 +142,9 @@ fn plan(
     )?;
     let light = || Night::of(sky.clone(), stars.clone(), &air);
     let night = light();
-    let mut solved = None;
+    let mut kept = KeptAir::new(Store::NONE);
     // The air is solved once; what follows is what a second frame takes.
-    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_map.clone()), &mut solved);
+    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_map.clone()), &mut kept);
     let (plan, _) = lay()?;
     println!(
         "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",

@@ -1,14 +1,17 @@
 //! What a plan holds and what it leaves out, and that the ledger says why. Needs no GPU.
 
+use nocturne::air::Atmosphere;
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
-use nocturne::plan::lay::lay;
+use nocturne::plan::lay::{lay, lay_in};
 use nocturne::plan::ledger::Ledger;
+use nocturne::plan::skylight::{KeptAir, Origin, SolvedAir};
 use nocturne::plan::{FramePlan, SKY_SHAPE, skylight};
-use nocturne::scene::Scene;
+use nocturne::scene::{Layers, Scene};
 use nocturne::sky::{BodyState, SkyState};
+use nocturne::store::Store;
 use nocturne::units::{Angle, Xyzv};
 
 const FLAGSTAFF: &str = r#"
@@ -33,14 +36,20 @@ fn at(utc: &str) -> Scene {
     scene
 }
 
-/// The plan, the ledger, and whether the map of the Moon was read.
-fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
+fn night_of(scene: &Scene) -> Night {
     let catalogs = Catalogs::locate(None).unwrap();
     let setting = scene.setting().unwrap();
     let ephemeris = Ephemeris::load(&catalogs, setting.tolerance).unwrap();
     let sky =
         SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance).unwrap();
-    let night = Night::of(sky, catalogs.stars().unwrap(), &scene.air);
+    Night::of(sky, catalogs.stars().unwrap(), &scene.air)
+}
+
+/// The plan, the ledger, and whether the map of the Moon was read.
+fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
+    let catalogs = Catalogs::locate(None).unwrap();
+    let setting = scene.setting().unwrap();
+    let night = night_of(scene);
     let mut asked = false;
     let moon_map = || {
         asked = true;
@@ -178,7 +187,7 @@ fn what_is_skipped_could_not_have_been_seen() {
     let dusk = first(&mut at("2026-01-18T00:00:00Z"), |night| {
         altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let sky = skylight::sky_plan(&dusk, true, false, &mut None).unwrap();
+    let (sky, _) = skylight::sky_plan(&dusk, true, false, &mut unkept()).unwrap();
     let sun = sky.sun.as_ref().unwrap().luminance();
     let share = largest_share(&sun, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
     assert!(share < 0.02, "sunlit air at its floor: {share} of the dark sky");
@@ -187,7 +196,7 @@ fn what_is_skipped_could_not_have_been_seen() {
         altitude(&night.sky.moon.state) < skylight::MOON_SKY_FLOOR
             && altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let sky = skylight::sky_plan(&moonset, false, true, &mut None).unwrap();
+    let (sky, _) = skylight::sky_plan(&moonset, false, true, &mut unkept()).unwrap();
     let moon = sky.moon.as_ref().unwrap().luminance();
     let share = largest_share(&moon, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
     assert!(share < 0.02, "moonlit air at its floor: {share} of the dark sky");
@@ -195,7 +204,7 @@ fn what_is_skipped_could_not_have_been_seen() {
     let rising = first(&mut at("2026-08-28T01:30:00Z"), |night| {
         altitude(&night.sky.sun) < skylight::MOON_SKY_SUN_LIMIT
     });
-    let sky = skylight::sky_plan(&rising, true, true, &mut None).unwrap();
+    let (sky, _) = skylight::sky_plan(&rising, true, true, &mut unkept()).unwrap();
     let sun = sky.sun.as_ref().unwrap().luminance();
     // The Moon stands opposite the Sun, so that its columns count from the other end.
     let opposite = |texel: usize| {
@@ -206,6 +215,53 @@ fn what_is_skipped_could_not_have_been_seen() {
     let moon = sky.moon.as_ref().unwrap().luminance();
     let share = largest_share(&moon, |texel| sun[opposite(texel)].y);
     assert!(share < 0.002, "moonlit air in twilight: {share} of the twilight");
+}
+
+fn unkept() -> KeptAir {
+    KeptAir::new(Store::NONE)
+}
+
+#[test]
+fn air_is_solved_once_and_the_ledger_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::in_folder(folder.path(), 1 << 28);
+    let scene = at("2026-01-18T19:30:00Z");
+    let night = night_of(&scene);
+    let setting = scene.setting().unwrap();
+    let origin = |kept: &mut KeptAir| {
+        let map = || unreachable!("the Moon is a point or hidden");
+        let layers = Layers { moon: false, ..scene.layers };
+        let (_, ledger) = lay_in(&setting, &layers, &night, map, kept).unwrap();
+        ledger.of("sunlit air").unwrap().how.clone()
+    };
+    let mut kept = KeptAir::new(store.clone());
+    assert_eq!(origin(&mut kept), ["tables of the air: from solving it now"]);
+    assert_eq!(origin(&mut kept), ["tables of the air: from the frame before"]);
+    assert_eq!(origin(&mut KeptAir::new(store)), ["tables of the air: from the store"]);
+}
+
+#[test]
+fn air_is_solved_in_the_background() {
+    let folder = tempfile::tempdir().unwrap();
+    let solving = SolvedAir::in_background(Store::in_folder(folder.path(), 1 << 28));
+    assert!(solving.latest().is_none());
+    let (clear, mut hazy) = (Atmosphere::molecular(), Atmosphere::default());
+    hazy.aerosol.optical_depth_550 = 0.3;
+    solving.ask((hazy.clone(), 0.0));
+    solving.ask((clear.clone(), 0.0));
+    // The first was overtaken: whether it was half-way or not, the last one is what remains.
+    let answer = solving.wait().unwrap();
+    let (_, solved) = &*answer;
+    assert!(solved.as_ref().unwrap().is_of(&clear, 0.0));
+    solving.ask((hazy.clone(), 0.0));
+    // The old one stays until the new one is ready.
+    let meanwhile = solving.latest().unwrap();
+    assert!(meanwhile.1.is_ok());
+    assert!(solving.wait().unwrap().1.as_ref().unwrap().is_of(&hazy, 0.0));
+    let mut wrong = clear;
+    wrong.ozone.column_du = f64::NAN;
+    solving.ask((wrong, 0.0));
+    assert!(solving.wait().unwrap().1.is_err());
 }
 
 #[test]
@@ -236,11 +292,7 @@ fn the_ground_fades_into_the_air_before_it() {
         light.z / light.x
     };
     // Through the longest paths the blue itself is thinned: bluest is what lies a little nearer.
-    assert!(
-        blue(1.6) > 1.2 * blue(90.0)
-            && blue(3.0) > blue(1.6)
-            && blue(3.0) > 1.3 * blue(10.0).min(blue(90.0))
-    );
+    assert!(blue(1.6) > 1.2 * blue(90.0) && blue(3.0) > blue(1.6) && blue(3.0) > 1.2 * blue(90.0));
     // It meets the sky without a step: most of what is seen there is air.
     let luminance = |below_deg: f64| plan.sky.luminance(down_by(below_deg)).y;
     let horizon = -plan.sky.horizon.deg();
@@ -249,20 +301,23 @@ fn the_ground_fades_into_the_air_before_it() {
 }
 
 #[test]
-fn air_that_was_solved_is_not_solved_again() {
+fn other_air_takes_the_place_of_the_air_before() {
     let night = first(&mut at("2026-01-18T00:00:00Z"), |_| true);
     let height_m = night.sky.place.height_m;
-    let mut solved = None;
-    let sky = skylight::sky_plan(&night, true, false, &mut solved).unwrap();
-    assert!(solved.as_ref().unwrap().is_of(&night.air, height_m));
-    // Other air takes its place, and gives what it gives alone.
+    let mut kept = unkept();
+    let lit = |night: &Night, kept: &mut KeptAir| {
+        let (sky, origin) = skylight::sky_plan(night, true, false, kept).unwrap();
+        (sky.sun.unwrap().view, origin.unwrap())
+    };
+    let (thick, origin) = lit(&night, &mut kept);
+    assert_eq!(origin, Origin::SolvedNow);
     let mut other = night.clone();
     other.air.ozone.column_du = 200.0;
-    let thin = skylight::sky_plan(&other, true, false, &mut solved).unwrap();
-    let kept = solved.as_ref().unwrap();
-    assert!(kept.is_of(&other.air, height_m) && !kept.is_of(&night.air, height_m));
-    assert!(!kept.is_of(&other.air, height_m + 1.0));
-    let again = skylight::sky_plan(&other, true, false, &mut solved).unwrap();
-    assert_eq!(thin.sun.as_ref().unwrap().view, again.sun.unwrap().view);
-    assert_ne!(thin.sun.unwrap().view, sky.sun.unwrap().view);
+    let (thin, origin) = lit(&other, &mut kept);
+    assert_eq!(origin, Origin::SolvedNow);
+    let (again, origin) = lit(&other, &mut kept);
+    assert_eq!(origin, Origin::FrameBefore);
+    assert!(thin == again && thin != thick);
+    assert!(kept.of(&other.air, height_m).unwrap().0.is_of(&other.air, height_m));
+    assert_eq!(kept.of(&other.air, height_m + 1.0).unwrap().1, Origin::SolvedNow);
 }

@@ -247,6 +247,7 @@ pub struct ScatteringTables {
     bands: Vec<Band>,
     /// What sky views divide the light of haze by.
     phase: Option<Phase>,
+    is_from_store: bool,
 }
 
 /// The rays of one observer, cut once for all sources.
@@ -319,6 +320,7 @@ impl ScatteringTables {
         let beams = Beams::new(&geometry.profile, ground_km, refractivity, disc_radius);
         let straight = geometry.straight();
         let mut bands = Vec::with_capacity(wavelengths_nm.len().div_ceil(LANES));
+        let mut is_from_store = true;
         for chunk in wavelengths_nm.chunks(LANES) {
             let optics = Optics::new(air, density_ratio, chunk);
             let source = SourceTable::new(&beams, &optics);
@@ -349,6 +351,7 @@ impl ScatteringTables {
                     return Ok(None);
                 };
                 field = solved;
+                is_from_store = false;
                 let block: Vec<u8> = field.solved().flat_map(f32::to_le_bytes).collect();
                 store.put(&key, &block);
             }
@@ -361,7 +364,13 @@ impl ScatteringTables {
             beams,
             bands,
             phase: Phase::of(air),
+            is_from_store,
         }))
+    }
+
+    /// Whether nothing had to be solved: all of the field was in the store.
+    pub fn is_from_store(&self) -> bool {
+        self.is_from_store
     }
 
     /// The wavelengths solved for, nm, in the order of all results.

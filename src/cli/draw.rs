@@ -31,13 +31,17 @@ pub fn draw(
     progress: &mut Progress,
 ) -> Result<Drawn, CliError> {
     use crate::overlay;
-    use crate::plan::lay::lay;
+    use crate::plan::lay::lay_in;
+    use crate::plan::skylight::KeptAir;
     use crate::render::Renderer;
+    use crate::store::Store;
 
     // Whether anything can be drawn is known soon, so ask before the long work.
     let renderer = progress.step("graphics adapter", Renderer::new)?;
-    let (plan, ledger) = progress
-        .step("light and air", || lay(setting, &scene.layers, night, || catalogs.moon_map()))?;
+    let mut kept = KeptAir::new(Store::of_user());
+    let (plan, ledger) = progress.step("light and air", || {
+        lay_in(setting, &scene.layers, night, || catalogs.moon_map(), &mut kept)
+    })?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
     let seen = progress.step("seeing", || {

@@ -21,8 +21,10 @@ use crate::catalog::Catalogs;
 use crate::export::OutputFile;
 use crate::export::table::{Cell, Column, Format, Kind, Sheet as Table, TableWriter};
 use crate::frame::Dir;
-use crate::plan::lay::lay;
+use crate::plan::lay::lay_in;
+use crate::plan::skylight::KeptAir;
 use crate::scene::Layers;
+use crate::store::Store;
 
 use super::ephemeris::Source;
 use super::error::CliError;
@@ -215,7 +217,8 @@ fn of_scene(
     let night =
         stage::night(&setting.instant, &setting.place, setting.tolerance, &scene.air, catalogs)?;
     let layers = Layers { sun: false, moon: false, planets: false, stars: false, ..scene.layers };
-    let (plan, _) = lay(&setting, &layers, &night, || catalogs.moon_map())?;
+    let mut kept = KeptAir::new(Store::of_user());
+    let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_map(), &mut kept)?;
     let dirs: Vec<_> = directions
         .into_iter()
         .map(|[altitude, azimuth]| Dir::from_azimuth_altitude(azimuth, altitude))

@@ -7,12 +7,13 @@ use crate::frame::{Apparent, Dir};
 use crate::light::night::{Kind, LitObject, Night};
 use crate::scene::{Layers, Setting};
 use crate::sky::BodyState;
+use crate::store::Store;
 use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
 use super::classic::ClassicLight;
 use super::ledger::Ledger;
-use super::skylight::{self, Shines, SolvedAir};
+use super::skylight::{self, KeptAir, Origin, Shines};
 use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
 
 /// Reach of a splat from its centre, pixels.
@@ -41,21 +42,22 @@ pub fn lay(
     night: &Night,
     moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
 ) -> Result<(FramePlan, Ledger), PlanError> {
-    lay_in(setting, layers, night, moon_map, &mut None)
+    lay_in(setting, layers, night, moon_map, &mut KeptAir::new(Store::NONE))
 }
 
-/// The same with the solved air of a frame before, which is used again if it is this air.
+/// The same with the solved air of a frame before, which is used again if it is this air, or else the
+/// air that was stored.
 pub fn lay_in(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
     moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
-    solved: &mut Option<SolvedAir>,
+    kept: &mut KeptAir,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
     let mut ledger = Ledger::default();
     let classic = setting.sky.map(|sky| ClassicLight::of(&sky, night)).transpose()?;
-    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, solved)?;
+    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, kept)?;
     let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
     let mut moon_map = Some(moon_map);
 
@@ -98,7 +100,7 @@ fn lay_sky(
     night: &Night,
     classic: Option<&ClassicLight>,
     ledger: &mut Ledger,
-    solved: &mut Option<SolvedAir>,
+    kept: &mut KeptAir,
 ) -> Result<SkyPlan, PlanError> {
     let switched = |on: bool, shines: Shines| if on { shines } else { Shines::No(SWITCHED_OFF) };
     let sun = switched(layers.skylight, skylight::sun_shines(night));
@@ -116,7 +118,20 @@ fn lay_sky(
     }
     let mut sky = match classic.filter(|_| layers.skylight) {
         Some(light) => light.plan(night),
-        None => skylight::sky_plan(night, sun == Shines::Yes, moon == Shines::Yes, solved)?,
+        None => {
+            let (sun, moon) = (sun == Shines::Yes, moon == Shines::Yes);
+            let (sky, origin) = skylight::sky_plan(night, sun, moon, kept)?;
+            if let Some(origin) = origin {
+                let from = match origin {
+                    Origin::FrameBefore => "the frame before",
+                    Origin::Store => "the store",
+                    Origin::SolvedNow => "solving it now",
+                };
+                let layer = if sun { "sunlit air" } else { "moonlit air" };
+                ledger.tell(layer, format!("tables of the air: from {from}"));
+            }
+            sky
+        }
     };
     let (above, below) = sky.dark.split_at_mut(SKY_SHAPE.above);
     if !layers.skylight {

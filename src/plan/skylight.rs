@@ -5,10 +5,12 @@ use crate::air::scattering::{
     Matrix, Quality, SKY_NODES_NM, SUMS, ScatteringError, ScatteringTables, SkyRays, SkyShape,
     SpectralSums, horizon, reconstruction_matrix,
 };
+use crate::background::{Background, Interrupt};
 use crate::frame::{Dir, Horizon};
 use crate::light::diffuse::NightSky;
 use crate::light::night::Night;
 use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
+use crate::store::Store;
 use crate::units::{Angle, Xyzv};
 
 use super::{SKY_SHAPE, SkyPlan, SourceSky};
@@ -50,6 +52,9 @@ pub fn moon_shines(night: &Night) -> Shines {
 /// The nodes that are computed; cubics through them make [`SKY_SHAPE`].
 pub const COMPUTED_SHAPE: SkyShape = SkyShape { above: 37, below: 13, azimuths: 25 };
 
+/// Air that is solved in the background: [`SolvedAir::in_background`].
+pub type SolvingAir = Background<(Atmosphere, f64), Result<SolvedAir, ScatteringError>>;
+
 /// The air solved once for an atmosphere around an observer, and the rays he looks along.
 pub struct SolvedAir {
     air: Atmosphere,
@@ -62,27 +67,35 @@ pub struct SolvedAir {
 impl SolvedAir {
     /// For an observer of a height above sea level, metres.
     pub fn solve(air: &Atmosphere, height_m: f64) -> Result<SolvedAir, ScatteringError> {
+        let solved = SolvedAir::stored(air, height_m, &Store::NONE, &Interrupt::default())?;
+        solved.ok_or(ScatteringError::Interrupted)
+    }
+
+    /// The same, taken from the store if it is there and kept there if not; none if it was interrupted.
+    pub fn stored(
+        air: &Atmosphere,
+        height_m: f64,
+        store: &Store,
+        interrupt: &Interrupt,
+    ) -> Result<Option<SolvedAir>, ScatteringError> {
         let wavelengths: Vec<f64> = (0..LEN).map(wavelength_nm).collect();
-        let tables = ScatteringTables::for_observer(air, height_m, &SKY_NODES_NM, Quality::RENDER)?;
-        Ok(SolvedAir {
+        let (nodes, quality) = (&SKY_NODES_NM, Quality::RENDER);
+        let tables = ScatteringTables::stored(air, height_m, nodes, quality, store, interrupt)?;
+        Ok(tables.map(|tables| SolvedAir {
             rays: tables.sky_rays(air.eye_km(height_m), COMPUTED_SHAPE),
             air: air.clone(),
             height_m,
             tables,
-            spectrum_from_nodes: reconstruction_matrix(&SKY_NODES_NM, &wavelengths),
-        })
+            spectrum_from_nodes: reconstruction_matrix(nodes, &wavelengths),
+        }))
     }
 
-    /// The air of `solved` if it is this air around this observer; else it is solved and kept there.
-    pub fn kept<'s>(
-        solved: &'s mut Option<SolvedAir>,
-        air: &Atmosphere,
-        height_m: f64,
-    ) -> Result<&'s SolvedAir, ScatteringError> {
-        match solved.take_if(|kept| kept.is_of(air, height_m)) {
-            Some(kept) => Ok(solved.insert(kept)),
-            None => Ok(solved.insert(SolvedAir::solve(air, height_m)?)),
-        }
+    /// Solves beside what is seen: the old air stays until the new one is ready, and air that was asked
+    /// for and is not wanted any more is left half-way. Air and height above sea level, metres.
+    pub fn in_background(store: Store) -> SolvingAir {
+        Background::new(move |(air, height_m): &(Atmosphere, f64), interrupt| {
+            SolvedAir::stored(air, *height_m, &store, interrupt).transpose()
+        })
     }
 
     /// Whether this is the air around an observer of a height above sea level, metres.
@@ -115,14 +128,52 @@ impl SolvedAir {
     }
 }
 
-/// The sky of a night. Solves the air only if something shines into it, and if it is not the air that
-/// `solved` holds.
+/// The air of the frame before, and the store on disk that other air is taken from.
+pub struct KeptAir {
+    solved: Option<SolvedAir>,
+    store: Store,
+}
+
+impl KeptAir {
+    /// None yet.
+    pub fn new(store: Store) -> KeptAir {
+        KeptAir { solved: None, store }
+    }
+
+    /// This air around an observer of a height above sea level, metres, and where it is from.
+    pub fn of(
+        &mut self,
+        air: &Atmosphere,
+        height_m: f64,
+    ) -> Result<(&SolvedAir, Origin), ScatteringError> {
+        if let Some(kept) = self.solved.take_if(|kept| kept.is_of(air, height_m)) {
+            return Ok((self.solved.insert(kept), Origin::FrameBefore));
+        }
+        let never = Interrupt::default();
+        let solved = SolvedAir::stored(air, height_m, &self.store, &never)?;
+        let solved = self.solved.insert(solved.ok_or(ScatteringError::Interrupted)?);
+        let origin = if solved.tables.is_from_store() { Origin::Store } else { Origin::SolvedNow };
+        Ok((solved, origin))
+    }
+}
+
+/// Where the solved air of a frame is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    FrameBefore,
+    Store,
+    SolvedNow,
+}
+
+/// The sky of a night, and where its solved air is from. The air is asked for only if something shines
+/// into it.
 pub fn sky_plan(
     night: &Night,
     with_sun: bool,
     with_moon: bool,
-    solved: &mut Option<SolvedAir>,
-) -> Result<SkyPlan, ScatteringError> {
+    kept: &mut KeptAir,
+) -> Result<(SkyPlan, Option<Origin>), ScatteringError> {
+    let mut origin = None;
     let height_m = night.sky.place.height_m;
     let mut sky = SkyPlan::black(horizon(&night.air, height_m, night.air.eye_km(height_m)));
     for (shines, state, lit) in [
@@ -130,12 +181,13 @@ pub fn sky_plan(
         (with_moon, &night.sky.moon.state, &mut sky.moon),
     ] {
         if shines {
-            let air = SolvedAir::kept(solved, &night.air, height_m)?;
+            let (air, from) = kept.of(&night.air, height_m)?;
+            origin.get_or_insert(from);
             *lit = Some(air.sky(state.dir, &night.irradiance(state)));
         }
     }
     sky.dark = dark_sky(night, sky.horizon)?;
-    Ok(sky)
+    Ok((sky, origin))
 }
 
 /// The sky without Sun and Moon, and the ground under it, by the rows of [`SKY_SHAPE`].

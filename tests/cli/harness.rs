@@ -130,6 +130,8 @@ impl Nocturne {
         command.args(line).current_dir(self.folder.path()).stdin(Stdio::null());
         // A layer of the Mesa drivers looks for a window system and complains if there is none.
         command.env_remove("NOCTURNE_CATALOGS").env("NODEVICE_SELECT", "1");
+        // Nothing is left in the folders of the user.
+        command.env("NOCTURNE_CACHE", "");
         command.envs(self.environment.iter().cloned());
         command
     }

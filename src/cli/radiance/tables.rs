@@ -11,8 +11,9 @@ use crate::air::scattering::{
 use crate::cli::error::CliError;
 use crate::frame::{Apparent, Dir};
 use crate::light::sun;
-use crate::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
+use crate::plan::skylight::{COMPUTED_SHAPE, KeptAir};
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
+use crate::store::Store;
 use crate::units::Angle;
 
 use super::answer::{Answer, Eyes};
@@ -99,7 +100,8 @@ pub fn render(
     eyes: &Eyes,
     look_up: &LookUp,
 ) -> Result<Vec<(usize, Answer)>, CliError> {
-    let solved = SolvedAir::solve(group.air, group.height_m).map_err(refused)?;
+    let mut kept = KeptAir::new(Store::of_user());
+    let (solved, _) = kept.of(group.air, group.height_m).map_err(refused)?;
     let tables = solved.tables();
     let rays = tables.sky_rays(group.eye_km(), COMPUTED_SHAPE);
     let of_eyes = solved.sums(&sun::irradiance_1au());
