@@ -9,15 +9,16 @@ use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
 use nocturne::place::Place;
-use nocturne::plan::skylight::sky_plan;
+use nocturne::plan::skylight::{KeptAir, sky_plan};
 use nocturne::sky::SkyState;
+use nocturne::store::Store;
 use nocturne::time;
 use nocturne::units::Angle;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let greenwich = Place::new(51.478, 0.0, 47.0)?;
     // The air is solved once for all times.
-    let mut solved = None;
+    let mut kept = KeptAir::new(Store::of_user());
     // What is compiled in is good enough for colours.
     let ephemeris = Ephemeris::analytic();
     // Around the equinox the Sun sets at six; five times of one evening.
@@ -27,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let sun = sky.sun.dir;
         let night = Night::of(sky, Vec::new(), &Atmosphere::default());
         let (with_sun, with_moon) = (true, false);
-        let plan = sky_plan(&night, with_sun, with_moon, &mut solved)?;
+        let (plan, _) = sky_plan(&night, with_sun, with_moon, &mut kept)?;
 
         println!("Sun at {:.1}°: luminance in cd/m2, chromaticity x y", sun.altitude().deg());
         // From the horizon below the Sun over the zenith to the horizon on the other side.

@@ -50,7 +50,7 @@ fn main() -> Outcome<()> {
     let evening = |minute: f64| utc(2026, 8, 12, 20.0 * 60.0 + minute);
     let (mut fixed, mut adapted) = (Vec::new(), Vec::new());
     for sun_deg in SUNS_DEG {
-        let minute = studio.when(&evening, 0.0, 620.0, sun_deg, |sky| &sky.sun)?;
+        let minute = studio.when(evening, 0.0, 620.0, sun_deg, |sky| &sky.sun)?;
         let scene = studio.all_sky(evening(minute));
         fixed.push(studio.draw(&scene, Some(FIXED_CD_M2))?);
         adapted.push(studio.draw(&scene, None)?);
@@ -60,14 +60,14 @@ fn main() -> Outcome<()> {
 
     // A night of full Moon: 2026-08-28, when it rises to 45 degrees.
     let night = |minute: f64| utc(2026, 8, 28, 2.0 * 60.0 + minute);
-    let minute = studio.when(&night, 300.0, 60.0, 40.0, |sky| &sky.moon.state)?;
+    let minute = studio.when(night, 300.0, 60.0, 40.0, |sky| &sky.moon.state)?;
     let scene = studio.all_sky(night(minute));
     println!("Moon: {}", scene.utc);
     let panels = vec![studio.draw(&scene, Some(0.02))?, studio.draw(&scene, None)?];
     write(&folder.join("moonlit.png"), &sheet(&[panels]))?;
 
     // Opposite the sunset, three degrees after it.
-    let minute = studio.when(&evening, 0.0, 620.0, -3.0, |sky| &sky.sun)?;
+    let minute = studio.when(evening, 0.0, 620.0, -3.0, |sky| &sky.sun)?;
     let mut scene = studio.all_sky(evening(minute));
     scene.camera = SceneCamera {
         azimuth_deg: 110.0,

@@ -308,14 +308,14 @@ fn airs() -> impl Strategy<Value = Atmosphere> {
     );
     (aerosol, rest).prop_map(|((depth, exponent, scale_km, albedo, asymmetry), rest)| {
         let (ozone_du, ground_albedo, pressure_mbar, temperature_c) = rest;
-        let mut air = Atmosphere::default();
-        air.aerosol = Aerosol {
+        let aerosol = Aerosol {
             optical_depth_550: depth,
             angstrom_exponent: Some(exponent),
             profile: AerosolProfile::Exponential { scale_height_km: scale_km },
             single_scattering_albedo: Some(albedo),
             phase: PhaseLaw::HenyeyGreenstein { g: asymmetry },
         };
+        let mut air = Atmosphere { aerosol, ..Atmosphere::default() };
         (air.ozone.column_du, air.ground.albedo) = (ozone_du, ground_albedo);
         (air.observer.pressure_mbar, air.observer.temperature_c) = (pressure_mbar, temperature_c);
         air.validate().expect("air within the ranges of the scene");

@@ -202,8 +202,7 @@ impl ClassicSky {
     ) -> Result<SkyUnderSun, ClassicSkyError> {
         self.validate()?;
         let model = self.model;
-        // Written so that NaN is refused too.
-        if !(sun_altitude > Angle::ZERO) {
+        if sun_altitude <= Angle::ZERO || sun_altitude.rad().is_nan() {
             return Err(ClassicSkyError::SunDown { model, altitude_deg: sun_altitude.deg() });
         }
         let turbidity = match model {

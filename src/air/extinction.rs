@@ -199,7 +199,7 @@ pub fn transmittance(air: &Atmosphere, height_m: f64, apparent_altitude: Angle) 
 
 /// What bends lines of sight: the air of the refraction, or nothing.
 enum SightBending {
-    Air(refraction::Profile),
+    Air(Box<refraction::Profile>),
     Nothing,
 }
 
@@ -208,7 +208,7 @@ impl SightBending {
         match air.paths.refracted {
             true => {
                 let observer = air.observer_air(height_m, SEEN_NM);
-                SightBending::Air(refraction::Profile::over(&observer))
+                SightBending::Air(Box::new(refraction::Profile::over(&observer)))
             }
             false => SightBending::Nothing,
         }

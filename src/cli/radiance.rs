@@ -96,7 +96,7 @@ enum Tier {
 fn parse_percent(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('%').trim_end().parse::<f64>();
     match number {
-        Ok(percent) if percent >= 0.001 && percent <= 100.0 => Ok(percent / 100.0),
+        Ok(percent) if (0.001..=100.0).contains(&percent) => Ok(percent / 100.0),
         _ => Err("give per cent from 0.001 to 100, such as 1%".to_owned()),
     }
 }
@@ -150,9 +150,10 @@ pub fn run(args: &RadianceArgs, catalogs: &Catalogs, out: &mut impl Write) -> Re
 fn of_skies(args: &RadianceArgs, tier: Tier, rows: &SkyRows) -> Result<Vec<Answer>, CliError> {
     let eyes = Eyes::new();
     let asked: Vec<(usize, Asked)> = rows.asked.iter().copied().enumerate().collect();
-    let look_up = (tier == Tier::Render && rows.has_views())
-        .then(|| looking_up(args.quiet))
-        .unwrap_or_default();
+    let look_up = match tier == Tier::Render && rows.has_views() {
+        true => looking_up(args.quiet),
+        false => LookUp::default(),
+    };
     let is_bent = |air: &Atmosphere| air.paths.refracted || air.paths.source_disc;
     if tier == Tier::Reference && !args.quiet && rows.airs.iter().any(is_bent) {
         eprintln!(

@@ -67,8 +67,7 @@ impl Rays {
         let ground_km = height_km.min(ground_m / 1000.0);
         for low_km in [ground_km, height_km] {
             let slope = profile.bending_at(low_km).scaled_radius_slope(low_km);
-            // Written so that NaN, which is no slope, is refused too.
-            if !(slope >= LEAST_SLOPE) {
+            if slope < LEAST_SLOPE || slope.is_nan() {
                 return Err(AirError::Duct {
                     pressure_mbar: air.pressure_mbar,
                     height_m: air.height_m,

@@ -242,7 +242,7 @@ impl DiffuseView {
     /// way.
     pub fn transmittance(&self, out: &mut [f64]) {
         for (path, out) in self.paths.iter().zip(out.chunks_mut(LANES)) {
-            out.iter_mut().zip(path.from_space().0).for_each(|(out, t)| *out = f64::from(t));
+            out.iter_mut().zip(path.passed().0).for_each(|(out, t)| *out = f64::from(t));
         }
     }
 }

@@ -47,7 +47,7 @@ struct Spoke {
     cos_zenith: f64,
     /// Width in the cosine.
     width: f64,
-    from_space: Lanes,
+    passed: Lanes,
 }
 
 /// The unknowns of one order.
@@ -154,7 +154,7 @@ impl Operators {
                         for (rows, layout) in rows.iter_mut().zip(&layouts) {
                             rows.add(layout, &nodes, air, &path, cos_zenith, width);
                         }
-                        Spoke { altitude, cos_zenith, width, from_space: path.from_space() }
+                        Spoke { altitude, cos_zenith, width, passed: path.passed() }
                     })
                     .collect();
                 (spokes, rows)
@@ -184,11 +184,11 @@ impl Operators {
         let norm = layout.legendre.azimuth_norm();
         for spoke in &self.spokes {
             let height_km = self.nodes.altitudes_km[spoke.altitude];
-            if spoke.from_space == Lanes::ZERO {
+            if spoke.passed == Lanes::ZERO {
                 continue;
             }
             let seen =
-                spoke.from_space * (light(height_km, spoke.cos_zenith) * spoke.width * norm) as f32;
+                spoke.passed * (light(height_km, spoke.cos_zenith) * spoke.width * norm) as f32;
             let start = layout.starts[spoke.altitude];
             let count = layout.degrees(spoke.altitude);
             layout.legendre.each(spoke.cos_zenith, |l, p| {

@@ -46,7 +46,7 @@ impl Path {
     }
 
     /// What of the light outside arrives unscattered.
-    pub fn from_space(&self) -> Lanes {
+    pub fn passed(&self) -> Lanes {
         if self.meets_ground { Lanes::ZERO } else { self.transmittance }
     }
 }
