@@ -14,9 +14,10 @@ fn corner_px(tile: vec4u, index: u32) -> vec2f {
     return vec2f(select(tile.xy, tile.zw, vec2(index & 1u, index >> 1u) == vec2(1u)));
 }
 
+// Given a corner that smooth tiles share, in pixels.
 @vertex
-fn smooth_vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> Corner {
-    let pixel = corner_px(tile, index);
+fn smooth_vertex(@location(0) corner: vec2u) -> Corner {
+    let pixel = vec2f(corner);
     let light = skylight(apparent_from_pixel(camera, pixel).dir);
     return Corner(clip_from_pixel(camera, pixel), light);
 }

@@ -149,17 +149,17 @@ impl Gpu {
         self.any_pipeline(label, &module, ["vertex", "fragment"], topology, buffers, Some(blend))
     }
 
-    /// A pipeline that writes its light over what the frame held, in strips of triangles; its entries
-    /// are those of a stage, `stage_vertex` and `stage_fragment`.
+    /// A pipeline that writes its light over what the frame held; its entries are those of a stage,
+    /// `stage_vertex` and `stage_fragment`.
     pub fn writing_pipeline(
         &self,
         label: &str,
         stage: &str,
         source: &str,
+        topology: wgpu::PrimitiveTopology,
         buffers: &[Option<wgpu::VertexBufferLayout>],
     ) -> wgpu::RenderPipeline {
         let (vertex, fragment) = (format!("{stage}_vertex"), format!("{stage}_fragment"));
-        let topology = wgpu::PrimitiveTopology::TriangleStrip;
         let module = self.module(label, source);
         self.any_pipeline(label, &module, [&vertex, &fragment], topology, buffers, None)
     }

@@ -28,16 +28,22 @@ struct Tables {
 impl SkyPass {
     pub fn new(gpu: &Gpu) -> SkyPass {
         let source = shaders::assembled("sky");
+        let corner = wgpu::VertexBufferLayout {
+            array_stride: size_of::<[u32; 2]>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Uint32x2],
+        };
         let tile = wgpu::VertexBufferLayout {
             array_stride: size_of::<[u32; 4]>() as u64,
             step_mode: wgpu::VertexStepMode::Instance,
             attributes: &wgpu::vertex_attr_array![0 => Uint32x4],
         };
-        let writing =
-            |stage: &str| gpu.writing_pipeline("sky", stage, &source, &[Some(tile.clone())]);
+        let writing = |stage, topology, layout| {
+            gpu.writing_pipeline("sky", stage, &source, topology, &[Some(layout)])
+        };
         SkyPass {
-            smooth: writing("smooth"),
-            exact: writing("exact"),
+            smooth: writing("smooth", wgpu::PrimitiveTopology::TriangleList, corner),
+            exact: writing("exact", wgpu::PrimitiveTopology::TriangleStrip, tile),
             look_up: gpu.compute_pipeline("sky_in", &shaders::assembled("sky-in")),
         }
     }
@@ -48,22 +54,31 @@ impl SkyPass {
         let tables = Tables::new(gpu, sky, camera.pixel_angle().rad());
         let tiles = tiles(sky, camera, detail);
         let buffers = [&frame.camera, &tables.uniform, &tables.table, &tables.phase];
-        let drawn: Vec<_> = [(&self.smooth, &tiles.smooth), (&self.exact, &tiles.exact)]
-            .into_iter()
-            .filter(|(_, tiles)| !tiles.is_empty())
-            .map(|(pipeline, tiles)| {
-                let corners = bytemuck::cast_slice(tiles);
-                let corners = gpu.buffer("sky tiles", corners, wgpu::BufferUsages::VERTEX);
-                let group = gpu.bind(
-                    &pipeline.get_bind_group_layout(0),
-                    &(0..).zip(buffers).collect::<Vec<_>>(),
-                );
-                (pipeline, group, corners, tiles.len() as u32)
-            })
-            .collect();
+        let bound = |pipeline: &wgpu::RenderPipeline| {
+            gpu.bind(&pipeline.get_bind_group_layout(0), &(0..).zip(buffers).collect::<Vec<_>>())
+        };
+        let smooth = (!tiles.smooth.is_empty()).then(|| {
+            let (corners, indices) = tiles.shared_corners(camera);
+            let (vertex, index) = (wgpu::BufferUsages::VERTEX, wgpu::BufferUsages::INDEX);
+            let corners = gpu.buffer("sky corners", bytemuck::cast_slice(&corners), vertex);
+            let buffer = gpu.buffer("sky tiles", bytemuck::cast_slice(&indices), index);
+            (bound(&self.smooth), corners, buffer, indices.len() as u32)
+        });
+        let exact = (!tiles.exact.is_empty()).then(|| {
+            let corners = bytemuck::cast_slice(&tiles.exact);
+            let corners = gpu.buffer("exact sky tiles", corners, wgpu::BufferUsages::VERTEX);
+            (bound(&self.exact), corners, tiles.exact.len() as u32)
+        });
         frame.pass("sky", |pass| {
-            for (pipeline, group, corners, count) in &drawn {
-                pass.set_pipeline(pipeline);
+            if let Some((group, corners, indices, count)) = &smooth {
+                pass.set_pipeline(&self.smooth);
+                pass.set_bind_group(0, group, &[]);
+                pass.set_vertex_buffer(0, corners.slice(..));
+                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..*count, 0, 0..1);
+            }
+            if let Some((group, corners, count)) = &exact {
+                pass.set_pipeline(&self.exact);
                 pass.set_bind_group(0, group, &[]);
                 pass.set_vertex_buffer(0, corners.slice(..));
                 pass.draw(0..4, 0..*count);

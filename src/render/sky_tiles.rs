@@ -36,6 +36,31 @@ pub struct SkyTiles {
     pub exact: Vec<[u32; 4]>,
 }
 
+impl SkyTiles {
+    /// The corners of the smooth tiles, each once, pixels; and by tile two triangles of corners, which
+    /// meet along the edge from the second corner to the third.
+    pub fn shared_corners(&self, camera: &Camera) -> (Vec<[u32; 2]>, Vec<u32>) {
+        const UNKNOWN: u32 = u32::MAX;
+        let columns = camera.width_px.next_multiple_of(LARGEST_PX) / SMALLEST_PX + 1;
+        let rows = camera.height_px.next_multiple_of(LARGEST_PX) / SMALLEST_PX + 1;
+        let mut places = vec![UNKNOWN; (columns * rows) as usize];
+        let (mut corners, mut indices) = (Vec::new(), Vec::with_capacity(6 * self.smooth.len()));
+        for &[x0, y0, x1, y1] in &self.smooth {
+            let [a, b, c, d] = [[x0, y0], [x1, y0], [x0, y1], [x1, y1]].map(|corner| {
+                let [x, y] = corner.map(|px| px / SMALLEST_PX);
+                let place = &mut places[(y * columns + x) as usize];
+                if *place == UNKNOWN {
+                    *place = corners.len() as u32;
+                    corners.push(corner);
+                }
+                *place
+            });
+            indices.extend([a, b, c, c, b, d]);
+        }
+        (corners, indices)
+    }
+}
+
 /// Edges of the largest and of the smallest tiles, pixels.
 const LARGEST_PX: u32 = 64;
 const SMALLEST_PX: u32 = 8;
