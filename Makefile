@@ -36,6 +36,7 @@ goldens: driver
 pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
+	cargo run --release --example 6_twilight_sheets docs/twilight
 
 # Compares the classic sky models with ours: docs/classic_skies.md and its picture.
 classic:

@@ -1,7 +1,7 @@
 //! Sheets of skies to look at: an evening from the Sun 30 degrees high to 18 degrees below the horizon, a
 //! night under the full Moon, and the shadow of the Earth opposite the sunset.
 //!
-//! `cargo run --release --example 5_twilight_sheets [folder]` writes `evening.png` (rows: one exposure for
+//! `cargo run --release --example 6_twilight_sheets [folder]` writes `evening.png` (rows: one exposure for
 //! all, an eye that adapts to each), `moonlit.png` and `earth_shadow.png`.
 
 use std::error::Error;
@@ -26,7 +26,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 const SUNS_DEG: [f64; 10] = [30.0, 5.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -15.0, -18.0];
 /// What the eye of the upper row is adapted to, cd/m2: the sky soon after sunset.
 const FIXED_CD_M2: f64 = 5.0;
-const SIDE_PX: u32 = 300;
+const SIDE_PX: u32 = 200;
 
 /// What draws, and where.
 struct Studio {
