@@ -15,7 +15,8 @@ struct Disc {
     lowest_in_view: vec4f,
     // The same direction in local axes (east, north, up), and the length of its level part, in w.
     lowest: vec4f,
-    // Sine and cosine of the altitude of the centre, without air, and the sine of the angular radius.
+    // Sine and cosine of the altitude of the centre, without air, the sine of the angular radius, and
+    // how far the picture of a globe reaches, in radii.
     centre: vec4f,
     // From the body to the Sun, in axes of the disc: level, up, away from the observer; w is the law:
     // 0 Sun, 1 Moon, 2 Lambert.
@@ -25,7 +26,8 @@ struct Disc {
     // What stands in front, in axes of the disc: level, up, and one less the part away from the
     // observer, in z; in w the chord of its angular radius.
     occluder: vec4f,
-    // Samples in a pixel inside the disc and turn of their lattice; the same near an edge.
+    // Samples in a pixel inside the disc and turn of their lattice; the same near an edge. Of a globe, in
+    // x, the edge of a tile in pixels, and in y the columns of tiles.
     samples: vec4u,
     // Nodes in a radian of apparent altitude.
     per_step: f32,
@@ -48,12 +50,18 @@ struct Band {
 
 const SUN: u32 = 0;
 const MOON: u32 = 1;
+// Bands of light of a globe for each band of colour.
+const CHANNELS: u32 = 4;
 
 @group(0) @binding(0) var<storage, read> camera: Camera;
 @group(0) @binding(1) var<storage, read> disc: Disc;
 // Relative albedo, longitude -180 to 180 along x, latitude 90 to -90 down y.
 @group(0) @binding(2) var<storage, read> albedo: array<f32>;
 @group(0) @binding(3) var<storage, read> bands: array<Band>;
+// The globe without air, by channel, and its mean over the disc.
+@group(0) @binding(4) var globe: texture_2d<f32>;
+@group(0) @binding(5) var across_globe: sampler;
+@group(0) @binding(6) var<storage, read> globe_mean: vec4f;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -259,4 +267,60 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) LuminanceXyzv {
         sum += light_at(first + (vec2f(f32(k), f32(row)) + 0.5) / f32(lattice.x));
     }
     return sum / f32(max(lattice.x, 1u));
+}
+
+// A globe is drawn in square tiles: where it is seen and the air before it change slowly.
+struct Seen {
+    @builtin(position) position: vec4f,
+    // Point of the disc in radii, and place among the nodes.
+    @location(0) @interpolate(linear) at: vec2f,
+    @location(1) @interpolate(linear) place: f32,
+    // Light of the mean of the disc through the air, by channel.
+    @location(2) @interpolate(linear) red: vec4f,
+    @location(3) @interpolate(linear) green: vec4f,
+    @location(4) @interpolate(linear) blue: vec4f,
+    @location(5) @interpolate(linear) earthlit: vec4f,
+}
+
+// Given the number of a corner, row by row, and the band.
+@vertex
+fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band: u32) -> Seen {
+    let first = band * CHANNELS;
+    let corners = disc.samples.y + 1u;
+    let corner = vec2u(index % corners, index / corners);
+    let pixel = disc.first_px + vec2f(corner * disc.samples.x);
+    let position = clip_from_pixel(camera, pixel);
+    let sight = across_at(pixel);
+    if sight.place < -1e8 {
+        return Seen(position, vec2f(9.0), 0.0, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec4f(0.0));
+    }
+    let last = f32(NODES - 1u);
+    let place = clamp(sight.place, 0.0, last);
+    let node = min(u32(place), NODES - 2u);
+    let along = place - f32(node);
+    var lights: array<vec4f, CHANNELS>;
+    for (var channel = 0u; channel < CHANNELS; channel++) {
+        let low = bands[first + channel].luminance[node];
+        lights[channel] = mix(low, bands[first + channel].luminance[node + 1u], along);
+    }
+    // Beyond the nodes the point goes on as it went.
+    var at = point_at(first, Across(place, sight.sin_azimuth, sight.versine_azimuth));
+    let rise = bands[first].above_centre[select(0u, NODES - 1u, sight.place > 0.0)].y;
+    at.y += (sight.place - place) * rise / disc.centre.z;
+    let point = select(vec2f(9.0), at.xy, at.z < 0.5);
+    return Seen(position, point, sight.place, lights[0], lights[1], lights[2], lights[3]);
+}
+
+@fragment
+fn globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
+    let width = max(fwidth(seen.place), 1e-6);
+    let flipped = vec2f(seen.at.x, -seen.at.y) / disc.centre.w;
+    let light = textureSampleLevel(globe, across_globe, 0.5 + 0.5 * flipped, 0.0);
+    // The ground stands before what lies below the first node.
+    let over_ground = clamp(0.5 + seen.place / width, 0.0, 1.0);
+    if max(abs(flipped.x), abs(flipped.y)) > 1.0 || over_ground == 0.0 {
+        return vec4f(0.0);
+    }
+    let share = select(light / globe_mean, vec4f(0.0), globe_mean <= vec4f(0.0)) * over_ground;
+    return seen.red * share.x + seen.green * share.y + seen.blue * share.z + seen.earthlit * share.w;
 }

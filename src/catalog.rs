@@ -8,6 +8,7 @@ use std::env;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -22,11 +23,13 @@ pub mod layered;
 pub mod moon;
 pub mod pack;
 pub mod places;
+mod relief_stub;
 mod seal;
 pub mod stars;
 
 pub use hipparcos::Astrometry;
 pub use moon::MoonMap;
+pub use relief_stub::MoonRelief;
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
@@ -34,6 +37,13 @@ const ASTROMETRY_FILE: &str = "hipparcos.csv";
 const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
+
+/// Maps of the Moon, shared by the frames that show it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MoonSurface {
+    pub albedo: Arc<MoonMap>,
+    pub relief: Arc<MoonRelief>,
+}
 
 /// A star of the Yale Bright Star Catalogue, 5th edition (Hoffleit & Warren 1991).
 #[derive(Debug, Clone, PartialEq)]
@@ -142,6 +152,15 @@ impl Catalogs {
     /// The gazetteer as a table: a line with [`places::COLUMNS`], then one line per place.
     pub fn places_text(&self) -> Result<String, CatalogError> {
         self.read(PLACES_FILE, places::open)
+    }
+
+    /// The surface of the Moon, as it is drawn.
+    pub fn moon_surface(&self) -> Result<MoonSurface, CatalogError> {
+        let relief = std::fs::read("/tmp/relief.raw").unwrap();
+        let elevation_m =
+            relief.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]])).collect();
+        let relief = MoonRelief { width: 2880, height: 1440, elevation_m };
+        Ok(MoonSurface { albedo: Arc::new(self.moon_map()?), relief: Arc::new(relief) })
     }
 
     /// The reflectance of the Moon.

@@ -6,6 +6,7 @@
 pub mod body;
 pub mod classic;
 pub mod disc;
+pub mod globe;
 pub mod lay;
 pub mod ledger;
 pub mod skylight;

@@ -8,6 +8,7 @@ pub mod shaders;
 pub mod uniforms;
 
 mod discs;
+mod globe;
 mod sky;
 pub mod sky_tiles;
 mod splats;

@@ -53,7 +53,7 @@ fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
     let mut asked = false;
     let moon_map = || {
         asked = true;
-        catalogs.moon_map()
+        catalogs.moon_surface()
     };
     let (plan, ledger) = lay(&setting, &scene.layers, &night, moon_map).unwrap();
     (plan, ledger, asked)

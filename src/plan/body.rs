@@ -1,22 +1,25 @@
 //! The Sun, the Moon and planets as the camera has them: as a point, a few points, or a disc.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use glam::DMat3;
 
 use crate::air::extinction::SightLines;
 use crate::air::refraction::{Rays, Refraction};
 use crate::camera::Camera;
-use crate::catalog::{CatalogError, MoonMap};
+use crate::catalog::{MoonMap, MoonSurface};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::disc_light::disc_axes;
 use crate::light::night::{LitObject, Night};
 use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
-use crate::units::{Angle, Xyzv};
+use crate::units::{Angle, MOON_RADIUS_KM, SUN_RADIUS_KM, Xyzv};
 
 use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
+use super::globe::{self, CHANNELS, EXTENT, Globe, Shadows};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -29,6 +32,8 @@ const COARSE_PX: f64 = 48.0;
 /// Samples in a pixel, inside a large disc and at edges.
 const INSIDE: Lattice = Lattice { points: 5, turn: 3 };
 const EDGE: Lattice = Lattice { points: 34, turn: 21 };
+/// Edge of the largest picture of a globe.
+const LARGEST_PICTURE_PX: f64 = 4096.0;
 /// Samples are those of an edge within this many pixels of it: the scale of a picture may differ by
 /// half along and across.
 const EDGE_PX: f64 = 2.5;
@@ -64,11 +69,15 @@ pub struct DiscAir {
     bands: Vec<BandAir>,
 }
 
+/// The first alone, where there is no globe.
+type Channels = [Xyzv; CHANNELS];
+
 struct BandAir {
     /// Where the limb darkening is taken.
     nm: f64,
-    /// True altitudes of the nodes, and the light of the whole body through the air there, lux.
-    nodes: Vec<(Angle, Xyzv)>,
+    /// True altitudes of the nodes, and the light of the whole body through the air there, lux, by
+    /// channel.
+    nodes: Vec<(Angle, Channels)>,
 }
 
 impl DiscAir {
@@ -84,7 +93,8 @@ impl DiscAir {
             ((altitude - self.lowest).rad() / self.step.rad()).clamp(0.0, (NODES - 1) as f64);
         let low = (place as usize).min(NODES - 2);
         let along = place - low as f64;
-        nodes[low].1 * (1.0 - along) + nodes[low + 1].1 * along
+        let all = |node: usize| -> Xyzv { nodes[node].1.iter().copied().sum() };
+        all(low) * (1.0 - along) + all(low + 1) * along
     }
 }
 
@@ -167,12 +177,14 @@ impl<'a> SeenBody<'a> {
         let altitudes: [Angle; NODES] = std::array::from_fn(|node| lowest + step * node as f64);
 
         let sight = SightLines::over(&self.night.air, self.night.sky.place.height_m);
-        let irradiance = self.night.irradiance(self.state);
-        let spectra = altitudes.map(|altitude| irradiance * sight.transmittance(altitude));
+        let channels = self.irradiances();
+        let through = altitudes.map(|altitude| sight.transmittance(altitude));
+        let spectra = through.map(|through| channels.map(|irradiance| irradiance * through));
         let bands = if is_coloured { self.coloured(apart_px, &altitudes, &spectra) } else { None };
         let bands = bands.unwrap_or_else(|| {
-            let node = |(altitude, spectrum): (&Angle, &Spectrum)| {
-                (self.refraction().true_from_apparent(*altitude), spectrum.xyzv())
+            let node = |(altitude, spectra): (&Angle, &[Spectrum; CHANNELS])| {
+                let lights = spectra.map(|spectrum| spectrum.xyzv());
+                (self.refraction().true_from_apparent(*altitude), lights)
             };
             let nodes = altitudes.iter().zip(&spectra).map(node).collect();
             vec![BandAir { nm: LIMB_NM, nodes }]
@@ -186,7 +198,7 @@ impl<'a> SeenBody<'a> {
         &self,
         apart_px: f64,
         altitudes: &[Angle; NODES],
-        spectra: &[Spectrum; NODES],
+        spectra: &[[Spectrum; CHANNELS]; NODES],
     ) -> Option<Vec<BandAir>> {
         let [red, blue] = BANDS_NM.map(|nm: f64| nm.powi(-2));
         let [red_of, blue_of] = DISPERSION_NM.map(|nm: f64| nm.powi(-2));
@@ -199,13 +211,57 @@ impl<'a> SeenBody<'a> {
                 (1.0 - (place.clamp(0.0, last as f64) - band as f64).abs()).max(0.0)
             };
             let rays = self.rays(nm)?;
-            let nodes = altitudes.iter().zip(spectra).map(|(&altitude, spectrum)| {
+            let nodes = altitudes.iter().zip(spectra).map(|(&altitude, spectra)| {
                 let stands = altitude - rays.at_apparent_altitude(altitude);
-                (stands, spectrum.weighted(share).xyzv())
+                (stands, spectra.map(|spectrum| spectrum.weighted(share).xyzv()))
             });
             Some(BandAir { nm, nodes: nodes.collect() })
         };
         (0..=last).map(band).collect()
+    }
+
+    pub fn is_moon(&self) -> bool {
+        self.state.body == Body::Moon
+    }
+
+    /// Whether the Moon is drawn as a globe: when it shows more than points of light.
+    fn is_globe(&self) -> bool {
+        self.is_moon() && !self.is_small()
+    }
+
+    /// Spectral irradiance outside the air. Of a globe, what its surface sends by each of its colours, and
+    /// what the Earth lights; else all in the first channel.
+    fn irradiances(&self) -> [Spectrum; CHANNELS] {
+        let irradiance = self.night.irradiance(self.state);
+        if !self.is_globe() {
+            return [irradiance, Spectrum::DARK, Spectrum::DARK, Spectrum::DARK];
+        }
+        let [red, green, blue] =
+            [0, 1, 2].map(|colour| irradiance.weighted(|nm| globe::colour_shares(nm)[colour]));
+        [red, green, blue, Spectrum::DARK]
+    }
+
+    /// The globe of the Moon; none where it is not drawn as one.
+    pub fn globe(&self, surface: &MoonSurface) -> Option<Globe> {
+        if !self.is_globe() {
+            return None;
+        }
+        let [level, up, away] = disc_axes(self.state.dir);
+        let body_from_horizon = self.night.sky.moon.horizon_from_moon_fixed.inverse().matrix();
+        let to_sun = body_from_horizon * self.state.dir_to_sun.vector();
+        let sun_radius = Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin());
+        let picture_px = (self.across_px() * EXTENT).ceil().clamp(16.0, LARGEST_PICTURE_PX) as u32;
+        let radius_px = picture_px.div_ceil(2) as usize;
+        let shadows = Shadows::cast(&surface.relief, to_sun, sun_radius, radius_px);
+        Some(Globe {
+            relief: Arc::clone(&surface.relief),
+            albedo: Arc::clone(&surface.albedo),
+            body_from_disc: body_from_horizon * DMat3::from_cols(level, up, away),
+            to_sun,
+            distance: self.state.distance_km / MOON_RADIUS_KM,
+            picture_px,
+            shadows: Arc::new(shadows),
+        })
     }
 
     /// The points of light of a small disc that are above the horizon and not hidden.
@@ -265,17 +321,14 @@ impl<'a> SeenBody<'a> {
     }
 
     /// How the body's light is spread over its disc.
-    pub fn shape(
-        &self,
-        moon_map: impl FnOnce() -> Result<Option<MoonMap>, CatalogError>,
-    ) -> Result<DiscShape, CatalogError> {
+    pub fn shape(&self, surface: Option<&MoonSurface>) -> DiscShape {
         let law = match self.state.body {
             Body::Sun => {
                 let limb_darkening = LimbDarkening::at_nm(LIMB_NM).coefficients();
                 SurfaceLaw::Sun { limb_darkening }
             }
-            Body::Moon => match moon_map()? {
-                Some(map) => SurfaceLaw::Moon { map: albedo_map(&map) },
+            Body::Moon => match surface {
+                Some(surface) => SurfaceLaw::Moon { map: albedo_map(&surface.albedo) },
                 None => SurfaceLaw::Lambert,
             },
             _ => SurfaceLaw::Lambert,
@@ -284,23 +337,32 @@ impl<'a> SeenBody<'a> {
             Body::Moon => self.night.sky.moon.horizon_from_moon_fixed.inverse().matrix(),
             _ => DMat3::IDENTITY,
         };
-        Ok(DiscShape {
+        DiscShape {
             centre: self.state.dir,
             angular_radius: self.state.angular_radius,
             dir_to_sun: self.state.dir_to_sun,
             body_from_horizon,
             law,
-        })
+        }
     }
 
     /// The disc that the GPU draws.
-    pub fn disc(&self, shape: DiscShape, air: &DiscAir, bounds_px: [[f64; 2]; 2]) -> Disc {
+    pub fn disc(
+        &self,
+        shape: DiscShape,
+        globe: Option<Globe>,
+        air: &DiscAir,
+        bounds_px: [[f64; 2]; 2],
+    ) -> Disc {
         let solid_angle_sr = shape.solid_angle_sr();
         let mean_of_all = match shape.law {
             SurfaceLaw::Sun { .. } => None,
+            // The picture of a globe is divided by its own mean.
+            _ if globe.is_some() => Some(1.0),
             _ => Some(shape.mean()),
         };
-        let band = |band: &BandAir| {
+        let channels = if globe.is_some() { CHANNELS } else { 1 };
+        let band = |(band, channel): (&BandAir, usize)| {
             let law = LimbDarkening::at_nm(band.nm);
             let mean = mean_of_all.unwrap_or_else(|| law.disc_mean());
             // Nothing of a new Moon is lit, and nothing of it is drawn.
@@ -315,7 +377,7 @@ impl<'a> SeenBody<'a> {
                     }
                     n => (altitude(n + 1) - altitude(n - 1)) / 2.0,
                 },
-                luminance: band.nodes[node].1 * per_lux,
+                luminance: band.nodes[node].1[channel] * per_lux,
             });
             DiscBand { limb_darkening: law.coefficients(), nodes: nodes.collect() }
         };
@@ -332,9 +394,15 @@ impl<'a> SeenBody<'a> {
             lowest,
             lowest_in_view: self.camera.view_from_apparent() * lowest,
             step: air.step,
-            bands: air.bands.iter().map(band).collect(),
+            bands: air
+                .bands
+                .iter()
+                .flat_map(|band| (0..channels).map(move |channel| (band, channel)))
+                .map(band)
+                .collect(),
             samples: [if radius_px < 0.5 * COARSE_PX { EDGE } else { INSIDE }, EDGE],
             edge: (EDGE_PX + apart_px) / radius_px,
+            globe,
             occluder: (self.state.body != Body::Moon).then_some((moon.dir, moon.angular_radius)),
             shape,
         }

@@ -15,6 +15,8 @@ use glam::{DMat3, DVec3};
 use crate::frame::{Apparent, Dir, Horizon, View};
 use crate::units::{Angle, Xyzv};
 
+use super::globe::{CHANNELS, Globe};
+
 /// Number of altitudes across a disc at which the air is looked through.
 pub const NODES: usize = 33;
 
@@ -103,14 +105,24 @@ pub struct Disc {
     pub lowest_in_view: Dir<View>,
     /// Apparent altitude from one node to the next.
     pub step: Angle,
-    /// One, or some from red to blue; their light adds up.
+    /// One, or some from red to blue; their light adds up. Where there is a globe, each in as many parts
+    /// as it has channels, one after the other.
     pub bands: Vec<DiscBand>,
+    /// What its surface looks like, if not like its shape.
+    pub globe: Option<Globe>,
     /// Samples in a pixel: inside the disc, and near its edges.
     pub samples: [Lattice; 2],
     /// How far from an edge the samples are those of the edge, in radii of the disc.
     pub edge: f64,
     /// What stands in front of it: geometric direction and angular radius.
     pub occluder: Option<(Dir<Horizon>, Angle)>,
+}
+
+impl Disc {
+    /// Bands of light for each band of colour.
+    pub fn channels(&self) -> usize {
+        if self.globe.is_some() { CHANNELS } else { 1 }
+    }
 }
 
 /// Points spread evenly over a pixel: the lattice of Fibonacci, in which no two points share a column

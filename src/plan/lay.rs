@@ -1,7 +1,7 @@
 //! Lays a night on the plane of the picture.
 
 use crate::camera::Camera;
-use crate::catalog::{CatalogError, MoonMap};
+use crate::catalog::{CatalogError, MoonSurface};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
 use crate::light::night::{Kind, LitObject, Night};
@@ -34,15 +34,15 @@ const TOO_FAINT: &str = "fainter than the magnitude limit";
 const OUTSHONE: &str = "under 1/10 000 of the sky behind it";
 const HIDDEN: &str = "behind the Moon or the Sun";
 
-/// Makes the plan of a frame and the ledger of what is in it. The Moon's map is asked for only if
+/// Makes the plan of a frame and the ledger of what is in it. The Moon's maps are asked for only if
 /// the Moon shows a disc.
 pub fn lay(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
+    moon: impl FnOnce() -> Result<MoonSurface, CatalogError>,
 ) -> Result<(FramePlan, Ledger), PlanError> {
-    lay_in(setting, layers, night, moon_map, &mut KeptAir::new(Store::NONE))
+    lay_in(setting, layers, night, moon, &mut KeptAir::new(Store::NONE))
 }
 
 /// The same with the solved air of a frame before, which is used again if it is this air, or else the
@@ -51,7 +51,7 @@ pub fn lay_in(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon_map: impl FnOnce() -> Result<MoonMap, CatalogError>,
+    moon: impl FnOnce() -> Result<MoonSurface, CatalogError>,
     kept: &mut KeptAir,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
@@ -59,7 +59,7 @@ pub fn lay_in(
     let classic = setting.sky.map(|sky| ClassicLight::of(&sky, night)).transpose()?;
     let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, kept)?;
     let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
-    let mut moon_map = Some(moon_map);
+    let mut moon = Some(moon);
 
     for object in &night.objects {
         let (layer, wanted) = layer_of(object, layers);
@@ -71,11 +71,11 @@ pub fn lay_in(
         let drawn = match state_of(object, night) {
             Some(state) => {
                 let seen = SeenBody::of(state, object, night, &camera);
-                let map = || match moon_map.take() {
+                let surface = || match moon.take() {
                     Some(read) => read().map(Some),
                     None => Ok(None),
                 };
-                lay_body(&seen, map, &mut plan)?
+                lay_body(&seen, surface, &mut plan)?
             }
             None => match lay_point(&camera, object.apparent, object.ground, &mut plan.splats) {
                 true => Laid::Points,
@@ -216,7 +216,7 @@ enum Laid {
 /// Draws a body as a disc, or as points of light when it is small.
 fn lay_body(
     seen: &SeenBody,
-    moon_map: impl FnOnce() -> Result<Option<MoonMap>, CatalogError>,
+    moon: impl FnOnce() -> Result<Option<MoonSurface>, CatalogError>,
     plan: &mut FramePlan,
 ) -> Result<Laid, PlanError> {
     let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };
@@ -229,7 +229,8 @@ fn lay_body(
     }
     let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
     let Some(air) = seen.air() else { return Ok(Laid::Not(BELOW_HORIZON)) };
-    let shape = seen.shape(moon_map)?;
+    let surface = if seen.is_moon() { moon()? } else { None };
+    let shape = seen.shape(surface.as_ref());
     if seen.is_small() {
         let mut any = false;
         for (apparent, light) in seen.points(&shape, &air) {
@@ -237,7 +238,8 @@ fn lay_body(
         }
         return Ok(points(any));
     }
-    plan.discs.push(seen.disc(shape, &air, bounds_px));
+    let globe = surface.as_ref().and_then(|surface| seen.globe(surface));
+    plan.discs.push(seen.disc(shape, globe, &air, bounds_px));
     Ok(Laid::Disc { bands: air.bands() })
 }
 

@@ -1,20 +1,38 @@
 //! Bodies that show a disc: a lit sphere seen through the air.
 
 use crate::plan::disc::{Disc, SurfaceLaw};
+use crate::plan::globe::Globe;
 
+use super::globe::{GlobePass, lattice_indices};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
-use super::uniforms::{DiscBandUniform, DiscUniform};
+use super::uniforms::{DiscBandUniform, DiscUniform, globe_tiles};
 
 pub struct DiscPass {
-    pipeline: wgpu::RenderPipeline,
+    shapes: wgpu::RenderPipeline,
+    globes: wgpu::RenderPipeline,
+    globe: GlobePass,
+    across_picture: wgpu::Sampler,
 }
 
 impl DiscPass {
     pub fn new(gpu: &Gpu) -> DiscPass {
-        let topology = wgpu::PrimitiveTopology::TriangleStrip;
-        DiscPass { pipeline: gpu.pipeline("discs", &shaders::assembled("discs"), topology, &[]) }
+        let (strip, list) =
+            (wgpu::PrimitiveTopology::TriangleStrip, wgpu::PrimitiveTopology::TriangleList);
+        let source = shaders::assembled("discs");
+        let pipeline = |entries, topology| gpu.pipeline("discs", &source, entries, topology, &[]);
+        DiscPass {
+            shapes: pipeline(["vertex", "fragment"], strip),
+            globes: pipeline(["globe_vertex", "globe_fragment"], list),
+            globe: GlobePass::new(gpu),
+            across_picture: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("across the picture of a globe"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+        }
     }
 
     pub fn draw(&self, frame: &mut Target, disc: &Disc) {
@@ -22,20 +40,59 @@ impl DiscPass {
         let uniform = DiscUniform::of(disc);
         let uniform =
             gpu.buffer(disc.label, bytemuck::bytes_of(&uniform), wgpu::BufferUsages::STORAGE);
+        let bands: Vec<DiscBandUniform> = disc.bands.iter().map(DiscBandUniform::of).collect();
+        let bands = gpu.buffer("bands", bytemuck::cast_slice(&bands), wgpu::BufferUsages::STORAGE);
+        match &disc.globe {
+            Some(globe) => self.draw_globe(frame, disc, globe, [&uniform, &bands]),
+            None => self.draw_shape(frame, disc, [&uniform, &bands]),
+        }
+    }
+
+    fn draw_shape(&self, frame: &mut Target, disc: &Disc, [uniform, bands]: [&wgpu::Buffer; 2]) {
         let albedo: &[f32] = match &disc.shape.law {
             SurfaceLaw::Moon { map } => &map.albedo,
             // A binding cannot be empty; the law does not read it.
             _ => &[1.0],
         };
-        let albedo =
-            gpu.buffer("albedo", bytemuck::cast_slice(albedo), wgpu::BufferUsages::STORAGE);
-        let bands: Vec<DiscBandUniform> = disc.bands.iter().map(DiscBandUniform::of).collect();
-        let bands = gpu.buffer("bands", bytemuck::cast_slice(&bands), wgpu::BufferUsages::STORAGE);
-        let group = frame.bind(&self.pipeline, &[&uniform, &albedo, &bands]);
+        let albedo = bytemuck::cast_slice(albedo);
+        let albedo = frame.gpu.buffer("albedo", albedo, wgpu::BufferUsages::STORAGE);
+        let group = frame.bind(&self.shapes, &[uniform, &albedo, bands]);
         frame.pass(disc.label, |pass| {
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(&self.shapes);
             pass.set_bind_group(0, &group, &[]);
             pass.draw(0..4, 0..1);
+        });
+    }
+
+    fn draw_globe(
+        &self,
+        frame: &mut Target,
+        disc: &Disc,
+        globe: &Globe,
+        [uniform, bands]: [&wgpu::Buffer; 2],
+    ) {
+        let picture = self.globe.draw(frame, globe);
+        let group = frame.gpu.bind_mixed(
+            &self.globes.get_bind_group_layout(0),
+            &[
+                (0, frame.camera.as_entire_binding()),
+                (1, uniform.as_entire_binding()),
+                (3, bands.as_entire_binding()),
+                (4, wgpu::BindingResource::TextureView(&picture.view)),
+                (5, wgpu::BindingResource::Sampler(&self.across_picture)),
+                (6, picture.mean.as_entire_binding()),
+            ],
+        );
+        let [_, columns, rows] = globe_tiles(disc);
+        let indices = lattice_indices(columns, rows);
+        let (count, usage) = (indices.len() as u32, wgpu::BufferUsages::INDEX);
+        let tiles = frame.gpu.buffer("tiles", bytemuck::cast_slice(&indices), usage);
+        let bands = (disc.bands.len() / disc.channels()) as u32;
+        frame.pass(disc.label, |pass| {
+            pass.set_pipeline(&self.globes);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_index_buffer(tiles.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..count, 0, 0..bands);
         });
     }
 }

@@ -112,6 +112,64 @@ impl Gpu {
         })
     }
 
+    /// The same for buffers, textures and samplers alike.
+    pub fn bind_mixed(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: &[(u32, wgpu::BindingResource)],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = resources
+            .iter()
+            .map(|(binding, resource)| wgpu::BindGroupEntry {
+                binding: *binding,
+                resource: resource.clone(),
+            })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    pub fn texture(
+        &self,
+        label: &str,
+        size: wgpu::Extent3d,
+        format: wgpu::TextureFormat,
+        usage: wgpu::TextureUsages,
+    ) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        })
+    }
+
+    /// A texture that shaders read, with its texels row by row.
+    pub fn texture_of(
+        &self,
+        label: &str,
+        size: wgpu::Extent3d,
+        format: wgpu::TextureFormat,
+        texels: &[u8],
+    ) -> wgpu::Texture {
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+        let texture = self.texture(label, size, format, usage);
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(texels.len() as u32 / size.height),
+            rows_per_image: None,
+        };
+        self.queue.write_texture(texture.as_image_copy(), texels, layout, size);
+        texture
+    }
+
     /// A pipeline that computes, by the name of its entry.
     pub fn compute_pipeline(&self, entry: &str, source: &str) -> wgpu::ComputePipeline {
         self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -131,11 +189,12 @@ impl Gpu {
         })
     }
 
-    /// A pipeline that adds its light to the frame.
+    /// A pipeline that adds its light to the frame; its entries are those of vertices and fragments.
     pub fn pipeline(
         &self,
         label: &str,
         source: &str,
+        entries: [&str; 2],
         topology: wgpu::PrimitiveTopology,
         buffers: &[Option<wgpu::VertexBufferLayout>],
     ) -> wgpu::RenderPipeline {
@@ -146,7 +205,7 @@ impl Gpu {
         };
         let blend = wgpu::BlendState { color: add, alpha: add };
         let module = self.module(label, source);
-        self.any_pipeline(label, &module, ["vertex", "fragment"], topology, buffers, Some(blend))
+        self.any_pipeline(label, &module, entries, topology, buffers, Some(blend))
     }
 
     /// A pipeline that writes its light over what the frame held; its entries are those of a stage,
@@ -162,6 +221,44 @@ impl Gpu {
         let (vertex, fragment) = (format!("{stage}_vertex"), format!("{stage}_fragment"));
         let module = self.module(label, source);
         self.any_pipeline(label, &module, [&vertex, &fragment], topology, buffers, None)
+    }
+
+    /// A pipeline that draws triangles on a picture of its own, the nearest in front.
+    pub fn picture_pipeline(
+        &self,
+        label: &str,
+        source: &str,
+        format: wgpu::TextureFormat,
+        depth: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module(label, source);
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(label),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: depth,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Less),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: Default::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     }
 
     fn any_pipeline(

@@ -6,9 +6,11 @@ const SKYLIGHT: &str = include_str!("../../shaders/skylight.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 4] = [
+pub const SHADERS: [(&str, &[&str]); 6] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
+    ("globe", &[QUANTITIES, include_str!("../../shaders/globe.wgsl")]),
+    ("globe-mean", &[include_str!("../../shaders/globe_mean.wgsl")]),
     ("discs", &[QUANTITIES, CAMERA, include_str!("../../shaders/discs.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
 ];

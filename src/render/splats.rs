@@ -20,7 +20,15 @@ impl SplatPass {
         };
         let topology = wgpu::PrimitiveTopology::TriangleStrip;
         let source = shaders::assembled("splats");
-        SplatPass { pipeline: gpu.pipeline("splats", &source, topology, &[Some(instance)]) }
+        SplatPass {
+            pipeline: gpu.pipeline(
+                "splats",
+                &source,
+                ["vertex", "fragment"],
+                topology,
+                &[Some(instance)],
+            ),
+        }
     }
 
     pub fn draw(&self, frame: &mut Target, splats: &[Splat]) {

@@ -69,7 +69,6 @@ impl<'g> Target<'g> {
             0 => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
             _ => wgpu::LoadOp::Load,
         };
-        let stamps = self.stamps.as_ref().filter(|_| number < TIMED_PASSES);
         let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(label),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -78,14 +77,64 @@ impl<'g> Target<'g> {
                 resolve_target: None,
                 ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
             })],
-            timestamp_writes: stamps.map(|query_set| wgpu::RenderPassTimestampWrites {
-                query_set,
-                beginning_of_pass_write_index: Some(2 * number),
-                end_of_pass_write_index: Some(2 * number + 1),
-            }),
+            timestamp_writes: stamps(self.stamps.as_ref(), number),
             ..Default::default()
         });
         draw(&mut pass);
+        drop(pass);
+        self.passes.push(label.to_owned());
+    }
+
+    /// Records a pass over a picture beside the frame, black and empty at first.
+    pub fn picture_pass(
+        &mut self,
+        label: &str,
+        picture: &wgpu::TextureView,
+        depth: &wgpu::TextureView,
+        draw: impl FnOnce(&mut wgpu::RenderPass),
+    ) {
+        let number = self.passes.len() as u32;
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: picture,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: stamps(self.stamps.as_ref(), number),
+            ..Default::default()
+        });
+        draw(&mut pass);
+        drop(pass);
+        self.passes.push(label.to_owned());
+    }
+
+    /// Records computations between passes.
+    pub fn compute(&mut self, label: &str, dispatch: impl FnOnce(&mut wgpu::ComputePass)) {
+        let number = self.passes.len() as u32;
+        let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(label),
+            timestamp_writes: stamps(self.stamps.as_ref(), number).map(|stamps| {
+                wgpu::ComputePassTimestampWrites {
+                    query_set: stamps.query_set,
+                    beginning_of_pass_write_index: stamps.beginning_of_pass_write_index,
+                    end_of_pass_write_index: stamps.end_of_pass_write_index,
+                }
+            }),
+        });
+        dispatch(&mut pass);
         drop(pass);
         self.passes.push(label.to_owned());
     }
@@ -128,6 +177,18 @@ impl<'g> Target<'g> {
         self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
         Some(readable)
     }
+}
+
+/// Where the times of a pass go.
+fn stamps(
+    query_set: Option<&wgpu::QuerySet>,
+    number: u32,
+) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    query_set.filter(|_| number < TIMED_PASSES).map(|query_set| wgpu::RenderPassTimestampWrites {
+        query_set,
+        beginning_of_pass_write_index: Some(2 * number),
+        end_of_pass_write_index: Some(2 * number + 1),
+    })
 }
 
 fn readable_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {

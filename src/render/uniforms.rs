@@ -12,6 +12,7 @@ use crate::camera::{Camera, Projection};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
+use crate::plan::globe::{EXTENT, Globe, MeshBand, Shadows};
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
@@ -64,6 +65,36 @@ pub struct DiscBandUniform {
     pub limb: [[f32; 4]; 2],
     pub luminance: [[f32; 4]; NODES],
     pub above_centre: [[f32; 4]; NODES],
+}
+
+/// `Globe` of `shaders/globe.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct GlobeUniform {
+    pub body_from_disc: [[f32; 4]; 3],
+    pub body_from_sun: [[f32; 4]; 3],
+    pub distance: f32,
+    pub extent: f32,
+    pub first_shadow: f32,
+    pub last_shadow: f32,
+}
+
+/// `MeshBand` of `shaders/globe.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct MeshBandUniform {
+    pub first: f32,
+    pub last: f32,
+    pub rings: u32,
+    pub sectors: u32,
+}
+
+/// `Mean` of `shaders/globe_mean.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct MeanUniform {
+    pub pixel_share: f32,
+    pub tiles: u32,
 }
 
 /// One instance of `shaders/splats.wgsl`.
@@ -120,6 +151,42 @@ pub fn direction<F>(dir: Dir<F>, with: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, with as f32]
 }
 
+/// Of the tiles that a globe is drawn in: edge in pixels, columns and rows.
+pub fn globe_tiles(disc: &Disc) -> [u32; 3] {
+    let [first, last] = disc.bounds_px;
+    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| 0.5 * f64::from(globe.picture_px));
+    // Straight across a tile, a point of the disc is off by a twentieth of a pixel.
+    let tile_px = (0.4 * radius_px).sqrt().clamp(4.0, 32.0).floor();
+    let [columns, rows] =
+        [0, 1].map(|axis| ((last[axis] - first[axis]) / tile_px).ceil().max(0.0) as u32);
+    [tile_px as u32, columns, rows]
+}
+
+impl GlobeUniform {
+    pub fn of(globe: &Globe) -> Self {
+        GlobeUniform {
+            body_from_disc: columns(globe.body_from_disc),
+            body_from_sun: columns(globe.shadows.body_from_sun),
+            distance: globe.distance as f32,
+            extent: EXTENT as f32,
+            first_shadow: Shadows::FIRST.rad() as f32,
+            last_shadow: Shadows::LAST.rad() as f32,
+        }
+    }
+}
+
+impl MeshBandUniform {
+    pub fn of(band: &MeshBand) -> Self {
+        let rad = |deg: u32| f64::from(deg).to_radians() as f32;
+        MeshBandUniform {
+            first: rad(band.from_deg),
+            last: rad(band.to_deg),
+            rings: band.rings,
+            sectors: band.sectors,
+        }
+    }
+}
+
 impl DiscUniform {
     pub fn of(disc: &Disc) -> Self {
         let shape = &disc.shape;
@@ -135,14 +202,23 @@ impl DiscUniform {
         let (view, lowest) = (disc.lowest_in_view.vector(), disc.lowest.vector());
         let (sin, cos) = shape.centre.altitude().sin_cos();
         let sin_radius = shape.angular_radius.sin();
-        let [inside, edge] = disc.samples;
+        let samples = match disc.globe {
+            Some(_) => {
+                let [tile_px, columns, _] = globe_tiles(disc);
+                [tile_px, columns, 0, 0]
+            }
+            None => {
+                let [inside, edge] = disc.samples;
+                [inside.points, inside.turn, edge.points, edge.turn]
+            }
+        };
         DiscUniform {
             first_px: pixel(disc.bounds_px[0]),
             last_px: pixel(disc.bounds_px[1]),
             // One less the cosine of the angle from the axis keeps its digits, the cosine does not.
             lowest_in_view: with(glam::DVec3::new(view.x, view.y, 1.0 + view.z), 0.0),
             lowest: with(lowest, lowest.x.hypot(lowest.y)),
-            centre: [sin as f32, cos as f32, sin_radius as f32, 0.0],
+            centre: [sin as f32, cos as f32, sin_radius as f32, EXTENT as f32],
             to_sun: with(in_disc(shape.dir_to_sun), law),
             body_from_disc: columns(shape.body_from_horizon * horizon_from_disc),
             // A chord of zero hides nothing.
@@ -151,10 +227,10 @@ impl DiscUniform {
                 let chord = 2.0 * (radius.rad() / 2.0).sin();
                 with(glam::DVec3::new(at.x, at.y, 1.0 - at.z), chord)
             }),
-            samples: [inside.points, inside.turn, edge.points, edge.turn],
+            samples,
             per_step: (1.0 / disc.step.rad()) as f32,
             edge: disc.edge as f32,
-            bands: disc.bands.len() as u32,
+            bands: (disc.bands.len() / disc.channels()) as u32,
             map_width: map_width as u32,
         }
     }

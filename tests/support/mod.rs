@@ -71,7 +71,7 @@ pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed
         setting.tolerance,
     )?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
-    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_map())?;
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_surface())?;
     Ok((plan, ledger, setting, night))
 }
 

@@ -1,0 +1,102 @@
+// The Moon without air, on a square picture of its own: a mesh displaced by the relief, lit by the
+// Sun and by the Earth. The picture has axes of the disc: level to the right, up; its edges lie at
+// `extent` radii of the Moon as the observer sees them.
+
+struct Globe {
+    // Columns: level, up and away from the observer, in the Moon's own axes.
+    body_from_disc: mat3x3f,
+    // Columns: two axes across and the direction of the Sun, in the Moon's own axes.
+    body_from_sun: mat3x3f,
+    // Of the observer, in radii of the Moon.
+    distance: f32,
+    extent: f32,
+    // Angles from the subsolar point, of the first and last row of the shadows.
+    first_shadow: Radians,
+    last_shadow: Radians,
+}
+
+// A band of the mesh around the point below the observer: rings of corners, each a full turn.
+struct MeshBand {
+    first: Radians,
+    last: Radians,
+    rings: u32,
+    sectors: u32,
+}
+
+@group(0) @binding(0) var<storage, read> globe: Globe;
+@group(0) @binding(1) var<storage, read> band: MeshBand;
+// Slope of the ground to the east and to the north, and elevation in radii of the Moon.
+@group(0) @binding(2) var relief: texture_2d<f32>;
+// Reflectances at 643, 566 and 415 nm.
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+// The share of the Sun's disc that is seen, by azimuth around the subsolar point and angle from it.
+@group(0) @binding(4) var shadows: texture_2d<f32>;
+@group(0) @binding(5) var across_maps: sampler;
+
+struct Ground {
+    @builtin(position) position: vec4f,
+    // Outward direction of the smooth globe, in the Moon's own axes.
+    @location(0) normal: vec3f,
+}
+
+// Given a direction in the Moon's own axes, its place on the maps: west to east, north to south.
+fn on_map(normal: vec3f) -> vec2f {
+    let longitude = atan2(normal.y, normal.x);
+    let latitude = atan2(normal.z, length(normal.xy));
+    return vec2f(0.5 + longitude / (2.0 * PI), 0.5 - latitude / PI);
+}
+
+// Given the number of a corner, ring by ring.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Ground {
+    let corners = band.sectors + 1u;
+    let theta = mix(band.first, band.last, f32(index / corners) / f32(band.rings));
+    let turn = 2.0 * PI * f32(index % corners) / f32(band.sectors);
+    let out = vec3f(sin(theta) * cos(turn), sin(theta) * sin(turn), -cos(theta));
+    let normal = globe.body_from_disc * out;
+    let elevation = textureSampleLevel(relief, across_maps, on_map(normal), 0.0).z;
+    let place = out * (1.0 + elevation);
+    let from_observer = place + vec3f(0.0, 0.0, globe.distance);
+    let away = length(from_observer);
+    let seen = place.xy * (globe.distance / away);
+    // From in front of the nearest mountain to behind the centre.
+    let depth = (away - globe.distance + 1.02) / 1.2;
+    return Ground(vec4f(seen / globe.extent, depth, 1.0), normal);
+}
+
+// The share of the Sun that is seen from a point of the globe.
+fn sunlit(in_sun: vec3f) -> f32 {
+    let angle = acos(clamp(in_sun.z, -1.0, 1.0));
+    if angle <= globe.first_shadow {
+        return 1.0;
+    }
+    if angle >= globe.last_shadow {
+        return 0.0;
+    }
+    let size = vec2f(textureDimensions(shadows));
+    let turn = atan2(in_sun.y, in_sun.x) / (2.0 * PI);
+    let row = (angle - globe.first_shadow) / (globe.last_shadow - globe.first_shadow);
+    // Values belong to the nodes: the middles of the texels.
+    let at = vec2f(fract(turn) + 0.5 / size.x, (row * (size.y - 1.0) + 0.5) / size.y);
+    return textureSampleLevel(shadows, across_maps, at, 0.0).x;
+}
+
+@fragment
+fn fragment(ground: Ground) -> @location(0) vec4f {
+    let outward = normalize(ground.normal);
+    let at = on_map(outward);
+    let slopes = textureSampleLevel(relief, across_maps, at, 0.0).xy;
+    let reflectance = textureSampleLevel(albedo, across_maps, at, 0.0).xyz;
+    let level = max(length(outward.xy), 1e-6);
+    let east = vec3f(-outward.y, outward.x, 0.0) / level;
+    let north = cross(outward, east);
+    let normal = normalize(outward - east * slopes.x - north * slopes.y);
+    let observer = -globe.body_from_disc[2] * globe.distance;
+    let cos_emission = max(dot(normal, normalize(observer - outward)), 0.02);
+    let in_sun = outward * globe.body_from_sun;
+    let cos_incidence = max(dot(normal, globe.body_from_sun[2]), 0.0);
+    // Lommel and Seeliger.
+    let law = cos_incidence / (cos_incidence + cos_emission);
+    // The Earth stands behind the observer: its light comes back the way it went.
+    return vec4f(reflectance * (law * sunlit(in_sun)), 0.5 * reflectance.y);
+}
