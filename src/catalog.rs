@@ -22,17 +22,20 @@ pub mod layered;
 pub mod moon;
 pub mod pack;
 pub mod places;
+mod rice;
 mod seal;
 pub mod stars;
 
 pub use hipparcos::Astrometry;
-pub use moon::MoonMap;
+pub use moon::{MoonHapke, MoonMap, MoonRelief};
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
 const ASTROMETRY_FILE: &str = "hipparcos.csv";
 const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
+const RELIEF_FILE: &str = "moon_relief.bin";
+const HAPKE_FILE: &str = "moon_hapke.bin";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
 /// A star of the Yale Bright Star Catalogue, 5th edition (Hoffleit & Warren 1991).
@@ -80,7 +83,7 @@ pub enum CatalogError {
     RawUnreadable { path: PathBuf, source: io::Error },
     #[error("{path}, line {line}: {what}; fetch the raw table again, or mend the packing")]
     Raw { path: PathBuf, line: usize, what: String },
-    #[error("the picture of the Moon {what}; give the map named in SOURCES.toml")]
+    #[error("the map of the Moon {what}; give the one named in SOURCES.toml")]
     Picture { what: String },
     #[error("SOURCES.toml has no path and sha256 for {file}; add a [[file]] table for it")]
     NoSource { file: &'static str },
@@ -146,7 +149,17 @@ impl Catalogs {
 
     /// The reflectance of the Moon.
     pub fn moon_map(&self) -> Result<MoonMap, CatalogError> {
-        self.read(MOON_FILE, |bytes| moon::decode(&bytes))
+        self.read(MOON_FILE, |bytes| moon::albedo::decode(&bytes))
+    }
+
+    /// The heights of the Moon.
+    pub fn moon_relief(&self) -> Result<MoonRelief, CatalogError> {
+        self.read(RELIEF_FILE, |bytes| moon::relief::decode(&bytes))
+    }
+
+    /// How the ground of the Moon sends light back.
+    pub fn moon_hapke(&self) -> Result<MoonHapke, CatalogError> {
+        self.read(HAPKE_FILE, |bytes| moon::hapke::decode(&bytes))
     }
 
     /// The payloads of the first `depth` layers of a layered file; the rest of it is not read.
