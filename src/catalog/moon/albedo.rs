@@ -15,6 +15,7 @@
 use crate::catalog::csv::{self, RowError};
 use crate::catalog::rice;
 use crate::catalog::seal::{self, Kind};
+use crate::units::Angle;
 
 const KIND: Kind = Kind { magic: b"NOCTMOON", version: 2 };
 const BOUNDS_LEN: usize = 48;
@@ -34,6 +35,19 @@ pub struct MoonMap {
     pub height: usize,
     /// Row by row, `width * height` of them.
     pub reff: Vec<[f32; 3]>,
+}
+
+impl MoonMap {
+    /// REFF at a place, at 643, 566 and 415 nm: straight between pixels.
+    pub fn reff(&self, longitude: Angle, latitude: Angle) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (at, weight) in super::around((self.width, self.height), longitude, latitude) {
+            for (sum, reff) in sum.iter_mut().zip(self.reff[at]) {
+                *sum += weight * f64::from(reff);
+            }
+        }
+        sum
+    }
 }
 
 /// From display values to REFF: `slope * (DN / 255)^gamma + intercept` in each channel.
