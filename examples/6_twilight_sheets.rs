@@ -139,7 +139,7 @@ impl Studio {
         let sky =
             SkyState::at(&self.ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
         let night = Night::of(sky, self.catalogs.stars()?, &scene.air);
-        let (plan, _) = lay(&setting, &scene.layers, &night, || self.catalogs.moon_surface())?;
+        let (plan, _) = lay(&setting, &scene.layers, &night, || self.catalogs.moon_maps())?;
         let frame = self.renderer.frame(&plan)?.frame;
         let eye = Eye { adaptation_cd_m2, ..scene.eye.clone() };
         Ok(eye.see(&frame, setting.camera.pixel_angle()).picture)

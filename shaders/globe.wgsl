@@ -13,6 +13,8 @@ struct Globe {
     // Angles from the subsolar point, of the first and last row of the shadows.
     first_shadow: Radians,
     last_shadow: Radians,
+    // Single-scattering albedo over that at 566 nm, by colour.
+    darkness: vec4f,
 }
 
 // A band of the mesh around the point below the observer: rings of corners, each a full turn.
@@ -32,6 +34,14 @@ struct MeshBand {
 // The share of the Sun's disc that is seen, by azimuth around the subsolar point and angle from it.
 @group(0) @binding(4) var shadows: texture_2d<f32>;
 @group(0) @binding(5) var across_maps: sampler;
+// By colour, what grains scatter once over the reflectance, and a quarter of what they scatter often; in
+// w of the first the single-scattering albedo at 566 nm.
+@group(0) @binding(6) var once: texture_2d<f32>;
+@group(0) @binding(7) var often: texture_2d<f32>;
+// What roughness makes of the cosines of incidence, along x, and emission, along y, at nodes in steps of
+// their roots: effective cosines, and the light that is left.
+@group(0) @binding(8) var facets: texture_2d<f32>;
+@group(0) @binding(9) var across_facets: sampler;
 
 struct Ground {
     @builtin(position) position: vec4f,
@@ -81,6 +91,23 @@ fn sunlit(in_sun: vec3f) -> f32 {
     return textureSampleLevel(shadows, across_maps, at, 0.0).x;
 }
 
+// Chandrasekhar's function, by colour, in Hapke's approximation; dim is the root of 1 - w.
+fn h_function(cosine: f32, dim: vec3f) -> vec3f {
+    return (1.0 + 2.0 * cosine) / (1.0 + 2.0 * cosine * dim);
+}
+
+// The radiance factor over the reflectance, by colour: Hapke 2012, see src/light/moon/hapke.rs.
+fn law(at: vec2f, cos_incidence: f32, cos_emission: f32) -> vec3f {
+    let size = f32(textureDimensions(facets).x);
+    let node = sqrt(vec2f(cos_incidence, cos_emission)) * ((size - 1.0) / size) + 0.5 / size;
+    let facet = textureSampleLevel(facets, across_facets, node, 0.0);
+    let single = textureSampleLevel(once, across_maps, at, 0.0);
+    let multiple = textureSampleLevel(often, across_maps, at, 0.0).xyz;
+    let dim = sqrt(max(1.0 - single.w * globe.darkness.xyz, vec3f(0.0)));
+    let again = h_function(facet.x, dim) * h_function(facet.y, dim) - 1.0;
+    return (single.xyz + multiple * again) * (facet.x / (facet.x + facet.y) * facet.z);
+}
+
 @fragment
 fn fragment(ground: Ground) -> @location(0) vec4f {
     let outward = normalize(ground.normal);
@@ -95,8 +122,11 @@ fn fragment(ground: Ground) -> @location(0) vec4f {
     let cos_emission = max(dot(normal, normalize(observer - outward)), 0.02);
     let in_sun = outward * globe.body_from_sun;
     let cos_incidence = max(dot(normal, globe.body_from_sun[2]), 0.0);
-    // Lommel and Seeliger.
-    let law = cos_incidence / (cos_incidence + cos_emission);
     // The Earth stands behind the observer: its light comes back the way it went.
-    return vec4f(reflectance * (law * sunlit(in_sun)), 0.5 * reflectance.y);
+    let earthlit = 0.5 * reflectance.y;
+    let sun = sunlit(in_sun);
+    if cos_incidence <= 0.0 || sun == 0.0 {
+        return vec4f(vec3f(0.0), earthlit);
+    }
+    return vec4f(reflectance * law(at, cos_incidence, cos_emission) * sun, earthlit);
 }

@@ -23,26 +23,28 @@ pub mod layered;
 pub mod moon;
 pub mod pack;
 pub mod places;
-mod relief_stub;
+mod rice;
 mod seal;
 pub mod stars;
 
 pub use hipparcos::Astrometry;
-pub use moon::MoonMap;
-pub use relief_stub::MoonRelief;
+pub use moon::{HapkeCell, MoonHapke, MoonMap, MoonRelief};
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
 const ASTROMETRY_FILE: &str = "hipparcos.csv";
 const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
+const RELIEF_FILE: &str = "moon_relief.bin";
+const HAPKE_FILE: &str = "moon_hapke.bin";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
 /// Maps of the Moon, shared by the frames that show it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MoonSurface {
+pub struct MoonMaps {
     pub albedo: Arc<MoonMap>,
     pub relief: Arc<MoonRelief>,
+    pub hapke: Arc<MoonHapke>,
 }
 
 /// A star of the Yale Bright Star Catalogue, 5th edition (Hoffleit & Warren 1991).
@@ -90,7 +92,7 @@ pub enum CatalogError {
     RawUnreadable { path: PathBuf, source: io::Error },
     #[error("{path}, line {line}: {what}; fetch the raw table again, or mend the packing")]
     Raw { path: PathBuf, line: usize, what: String },
-    #[error("the picture of the Moon {what}; give the map named in SOURCES.toml")]
+    #[error("the map of the Moon {what}; give the one named in SOURCES.toml")]
     Picture { what: String },
     #[error("SOURCES.toml has no path and sha256 for {file}; add a [[file]] table for it")]
     NoSource { file: &'static str },
@@ -154,18 +156,28 @@ impl Catalogs {
         self.read(PLACES_FILE, places::open)
     }
 
-    /// The surface of the Moon, as it is drawn.
-    pub fn moon_surface(&self) -> Result<MoonSurface, CatalogError> {
-        let relief = std::fs::read("/tmp/relief.raw").unwrap();
-        let elevation_m =
-            relief.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]])).collect();
-        let relief = MoonRelief { width: 2880, height: 1440, elevation_m };
-        Ok(MoonSurface { albedo: Arc::new(self.moon_map()?), relief: Arc::new(relief) })
+    /// The maps that the Moon is drawn from.
+    pub fn moon_maps(&self) -> Result<MoonMaps, CatalogError> {
+        Ok(MoonMaps {
+            albedo: Arc::new(self.moon_map()?),
+            relief: Arc::new(self.moon_relief()?),
+            hapke: Arc::new(self.moon_hapke()?),
+        })
     }
 
     /// The reflectance of the Moon.
     pub fn moon_map(&self) -> Result<MoonMap, CatalogError> {
-        self.read(MOON_FILE, |bytes| moon::decode(&bytes))
+        self.read(MOON_FILE, |bytes| moon::albedo::decode(&bytes))
+    }
+
+    /// The heights of the Moon.
+    pub fn moon_relief(&self) -> Result<MoonRelief, CatalogError> {
+        self.read(RELIEF_FILE, |bytes| moon::relief::decode(&bytes))
+    }
+
+    /// How the ground of the Moon sends light back.
+    pub fn moon_hapke(&self) -> Result<MoonHapke, CatalogError> {
+        self.read(HAPKE_FILE, |bytes| moon::hapke::decode(&bytes))
     }
 
     /// The payloads of the first `depth` layers of a layered file; the rest of it is not read.

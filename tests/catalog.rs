@@ -210,15 +210,15 @@ fn the_gazetteer_holds_every_place() {
     assert!((2100.0..2500.0).contains(&elevation_m), "{elevation_m}");
 }
 
-/// REFF around a place, averaged over 5 x 5 pixels (1.8 degrees).
+/// REFF around a place, averaged over 9 x 9 pixels (1.6 degrees).
 fn reff_around(map: &MoonMap, latitude_deg: f64, longitude_deg: f64) -> [f64; 3] {
     let column = ((longitude_deg + 180.0) / 360.0 * map.width as f64) as usize;
     let row = ((90.0 - latitude_deg) / 180.0 * map.height as f64) as usize;
     let mut sum = [0.0; 3];
-    for row in row - 2..=row + 2 {
-        for column in column - 2..=column + 2 {
+    for row in row - 4..=row + 4 {
+        for column in column - 4..=column + 4 {
             for (sum, reff) in sum.iter_mut().zip(map.reff[row * map.width + column]) {
-                *sum += f64::from(reff) / 25.0;
+                *sum += f64::from(reff) / 81.0;
             }
         }
     }
@@ -228,7 +228,7 @@ fn reff_around(map: &MoonMap, latitude_deg: f64, longitude_deg: f64) -> [f64; 3]
 #[test]
 fn the_moon_has_its_seas_and_rays_in_their_places() {
     let map = catalogs().moon_map().unwrap();
-    assert_eq!((map.width, map.height, map.reff.len()), (1024, 512, 1024 * 512));
+    assert_eq!((map.width, map.height, map.reff.len()), (2048, 1024, 2048 * 1024));
     let green = |latitude_deg, longitude_deg| reff_around(&map, latitude_deg, longitude_deg)[1];
     let crisium = green(17.0, 59.0);
     let tycho = green(-43.3, -11.2);
@@ -242,6 +242,51 @@ fn the_moon_has_its_seas_and_rays_in_their_places() {
     assert!(tycho > 1.3 * green(-25.0, -40.0), "{tycho}");
     // North is up: Plato, a dark crater floor at 51.6 N, has no counterpart at 51.6 S.
     assert!(green(51.6, -9.4) < 0.75 * green(-51.6, -9.4));
+}
+
+#[test]
+fn the_moon_is_high_and_low_where_it_is() {
+    let map = catalogs().moon_relief().unwrap();
+    assert_eq!((map.width, map.height, map.elevation_m.len()), (2880, 1440, 2880 * 1440));
+    let metres = |latitude_deg, longitude_deg| {
+        map.elevation_m(Angle::from_deg(longitude_deg), Angle::from_deg(latitude_deg))
+    };
+    // Highest and lowest of LRO (Smith et al. 2010, GRL 37, L18204): 10.78 and -9.12 km, here means
+    // over 4 km.
+    let (low, high) = map
+        .elevation_m
+        .iter()
+        .fold((0, 0), |(low, high), &metres| (i16::min(low, metres), i16::max(high, metres)));
+    assert!((10_400..10_800).contains(&high), "{high}");
+    assert!((-9_150..-8_500).contains(&low), "{low}");
+    // The highest point stands at 5.4 N, 201.4 E, the lowest in Antoniadi.
+    assert!(metres(5.4, -158.6) > 9_500.0, "{}", metres(5.4, -158.6));
+    assert!(metres(-70.4, -172.6) < -8_000.0, "{}", metres(-70.4, -172.6));
+    // Seas lie deep: Tranquillity base is -1.93 km, Crisium -3.8; Tycho's floor lies 4 km below its
+    // rim, 43 km away.
+    assert!((metres(0.674, 23.473) + 1_930.0).abs() < 100.0, "{}", metres(0.674, 23.473));
+    assert!((metres(17.0, 59.0) + 3_800.0).abs() < 300.0, "{}", metres(17.0, 59.0));
+    let rim = metres(-43.3 + 1.4, -11.2);
+    assert!((3_000.0..5_500.0).contains(&(rim - metres(-43.3, -12.0))), "{rim}");
+}
+
+#[test]
+fn the_ground_of_the_moon_is_dark_and_sends_light_back() {
+    let map = catalogs().moon_hapke().unwrap();
+    assert_eq!((map.width, map.height, map.cells.len()), (180, 90, 180 * 90));
+    let cell = |latitude_deg: f64, longitude_deg: f64| {
+        let row = ((90.0 - latitude_deg) / 2.0) as usize;
+        map.cells[row * 180 + ((longitude_deg + 180.0) / 2.0) as usize]
+    };
+    let (crisium, highlands) = (cell(17.0, 59.0), cell(10.0, 165.0));
+    for band in 0..3 {
+        assert!(crisium[band].w < 0.75 * highlands[band].w);
+        assert!(cell(17.0, 59.0)[band].b_s0 > cell(10.0, 165.0)[band].b_s0);
+    }
+    assert!(crisium[0].w < crisium[1].w && crisium[1].w < crisium[2].w);
+    // Towards the poles those at 70 degrees go on.
+    assert_eq!(cell(89.0, 31.0), cell(71.0, 31.0));
+    assert_eq!(cell(-89.0, 31.0), cell(-71.0, 31.0));
 }
 
 /// The ROLO disc albedo (Kieffer & Stone 2005, *AJ* 129, 2887, eq. 10), at the phase angle 30°
@@ -271,7 +316,8 @@ fn the_moon_is_dark_and_reddish_everywhere() {
 
 /// Applies a change to each file in turn and expects one clear sentence that names the file.
 fn refused(change: impl Fn(&mut Vec<u8>), what: &str) {
-    for file in ["stars.bin", "places.csv", "moon_albedo.bin"] {
+    for file in ["stars.bin", "places.csv", "moon_albedo.bin", "moon_relief.bin", "moon_hapke.bin"]
+    {
         let message = message_about(file, &change);
         assert!(message.contains(file), "{message}");
         assert!(message.contains("cargo run --bin pack"), "{message}");
@@ -290,6 +336,8 @@ fn message_about(file: &str, change: &impl Fn(&mut Vec<u8>)) -> String {
     let error = match file {
         "stars.bin" => catalogs.stars().map(drop),
         "places.csv" => catalogs.places_text().map(drop),
+        "moon_relief.bin" => catalogs.moon_relief().map(drop),
+        "moon_hapke.bin" => catalogs.moon_hapke().map(drop),
         _ => catalogs.moon_map().map(drop),
     };
     let error = error.expect_err(file);
@@ -360,7 +408,7 @@ fn a_missing_file_is_named() {
     assert!(message.contains("NOCTURNE_CATALOGS"), "{message}");
 }
 
-/// The Moon's map is checked by `pack --check` where its picture is at hand.
+/// The Moon's maps are checked by `pack --check` where their sources are at hand.
 #[test]
 fn packing_the_raw_tables_again_gives_the_same_bytes() {
     let raw = directory().join("raw");

@@ -53,7 +53,7 @@ fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
     let mut asked = false;
     let moon_map = || {
         asked = true;
-        catalogs.moon_surface()
+        catalogs.moon_maps()
     };
     let (plan, ledger) = lay(&setting, &scene.layers, &night, moon_map).unwrap();
     (plan, ledger, asked)

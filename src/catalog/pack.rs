@@ -7,11 +7,12 @@ use std::path::Path;
 
 use super::bsc5::{self, BscError};
 use super::csv::RowError;
-use super::moon::{self, Calibration};
+use super::moon::albedo::{self, Calibration};
+use super::moon::{hapke, relief};
 use super::places;
 use super::seal::sha256_hex;
 use super::stars;
-use super::{CatalogError, MOON_FILE, PLACES_FILE, STARS_FILE};
+use super::{CatalogError, HAPKE_FILE, MOON_FILE, PLACES_FILE, RELIEF_FILE, STARS_FILE};
 
 /// The file that says where every other file comes from.
 pub const SOURCES_FILE: &str = "SOURCES.toml";
@@ -67,10 +68,26 @@ pub fn moon(raw: &Path, rgb: &[u8], size: (usize, usize)) -> Result<Packed, Cata
     let calibration = Calibration::from_csv(&read_text(raw, RAW_CALIBRATION)?)
         .map_err(|error| raw_error(raw, RAW_CALIBRATION, error))?;
     let bytes =
-        moon::encode(rgb, size, &calibration).map_err(|what| CatalogError::Picture { what })?;
-    let (width, height) = moon::PACKED_SIZE;
+        albedo::encode(rgb, size, &calibration).map_err(|what| CatalogError::Picture { what })?;
+    let (width, height) = albedo::PACKED_SIZE;
     let summary = format!("{width} x {height} pixels from {} x {}", size.0, size.1);
     Ok(Packed { file: MOON_FILE, bytes, summary })
+}
+
+/// `moon_relief.bin` from a picture of heights: metres above 1737.4 km plus 32768, longitude 0° to
+/// 360° from left to right.
+pub fn moon_relief(metres: &[u16], size: (usize, usize)) -> Result<Packed, CatalogError> {
+    let bytes = relief::encode(metres, size).map_err(|what| CatalogError::Picture { what })?;
+    let summary = format!("{} x {} heights within 1 m", size.0, size.1);
+    Ok(Packed { file: RELIEF_FILE, bytes, summary })
+}
+
+/// `moon_hapke.bin` from the maps of Sato et al. 2014: 16-bit floating-point numbers, three bands of
+/// 140 rows of 360 cells of five parameters.
+pub fn moon_hapke(f16_bytes: &[u8]) -> Result<Packed, CatalogError> {
+    let bytes = hapke::encode(f16_bytes).map_err(|what| CatalogError::Picture { what })?;
+    let summary = "cells of 2 degrees, 3 bands of 5 parameters".into();
+    Ok(Packed { file: HAPKE_FILE, bytes, summary })
 }
 
 /// The text of `SOURCES.toml` with the SHA-256 of these files brought up to date.

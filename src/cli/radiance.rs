@@ -219,7 +219,7 @@ fn of_scene(
         stage::night(&setting.instant, &setting.place, setting.tolerance, &scene.air, catalogs)?;
     let layers = Layers { sun: false, moon: false, planets: false, stars: false, ..scene.layers };
     let mut kept = KeptAir::new(Store::of_user());
-    let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_surface(), &mut kept)?;
+    let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_maps(), &mut kept)?;
     let dirs: Vec<_> = directions
         .into_iter()
         .map(|[altitude, azimuth]| Dir::from_azimuth_altitude(azimuth, altitude))

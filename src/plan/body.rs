@@ -8,10 +8,11 @@ use glam::DMat3;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::{Rays, Refraction};
 use crate::camera::Camera;
-use crate::catalog::{MoonMap, MoonSurface};
+use crate::catalog::{MoonMap, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
+use crate::light::moon::{MoonSurface, Reflectance, bands};
 use crate::light::night::{LitObject, Night};
 use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
@@ -19,7 +20,7 @@ use crate::sky::BodyState;
 use crate::units::{Angle, MOON_RADIUS_KM, SUN_RADIUS_KM, Xyzv};
 
 use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
-use super::globe::{self, CHANNELS, EXTENT, Globe, Shadows};
+use super::globe::{CHANNELS, EXTENT, Globe, Ground, Shadows};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -236,13 +237,13 @@ impl<'a> SeenBody<'a> {
         if !self.is_globe() {
             return [irradiance, Spectrum::DARK, Spectrum::DARK, Spectrum::DARK];
         }
-        let [red, green, blue] =
-            [0, 1, 2].map(|colour| irradiance.weighted(|nm| globe::colour_shares(nm)[colour]));
+        let [blue, green, red] =
+            [0, 1, 2].map(|band| irradiance.weighted(|nm| bands::weights(nm)[band]));
         [red, green, blue, Spectrum::DARK]
     }
 
     /// The globe of the Moon; none where it is not drawn as one.
-    pub fn globe(&self, surface: &MoonSurface) -> Option<Globe> {
+    pub fn globe(&self, surface: &MoonMaps) -> Option<Globe> {
         if !self.is_globe() {
             return None;
         }
@@ -252,6 +253,7 @@ impl<'a> SeenBody<'a> {
         let sun_radius = Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin());
         let picture_px = (self.across_px() * EXTENT).ceil().clamp(16.0, LARGEST_PICTURE_PX) as u32;
         let radius_px = picture_px.div_ceil(2) as usize;
+        let ground = MoonSurface::new(&surface.albedo, &surface.hapke);
         let shadows = Shadows::cast(&surface.relief, to_sun, sun_radius, radius_px);
         Some(Globe {
             relief: Arc::clone(&surface.relief),
@@ -260,6 +262,7 @@ impl<'a> SeenBody<'a> {
             to_sun,
             distance: self.state.distance_km / MOON_RADIUS_KM,
             picture_px,
+            ground: Arc::new(Ground::at_phase(Reflectance::Hapke, &ground, self.state.phase_angle)),
             shadows: Arc::new(shadows),
         })
     }
@@ -321,7 +324,7 @@ impl<'a> SeenBody<'a> {
     }
 
     /// How the body's light is spread over its disc.
-    pub fn shape(&self, surface: Option<&MoonSurface>) -> DiscShape {
+    pub fn shape(&self, surface: Option<&MoonMaps>) -> DiscShape {
         let law = match self.state.body {
             Body::Sun => {
                 let limb_darkening = LimbDarkening::at_nm(LIMB_NM).coefficients();

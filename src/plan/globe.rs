@@ -21,24 +21,15 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::catalog::{MoonMap, MoonRelief};
+use crate::light::moon::hapke::Facets;
+use crate::light::moon::surface::PhaseCell;
+use crate::light::moon::{MoonSurface, Reflectance};
 use crate::units::{Angle, MOON_RADIUS_KM};
 
 /// The picture of the globe reaches over the mean radius by this share: the highest mountains are 0.6 %.
 pub const EXTENT: f64 = 1.01;
 /// Colours of the surface: reflectances at 643, 566 and 415 nm; and what the Earth lights.
 pub const CHANNELS: usize = 4;
-/// Wavelengths of the colours, nanometres, as in [`MoonMap`].
-pub const COLOURS_NM: [f64; 3] = [643.0, 566.0, 415.0];
-
-/// What each colour counts at a wavelength: straight between the colours, the nearest beyond. They sum
-/// to one.
-pub fn colour_shares(nm: f64) -> [f64; 3] {
-    let [red, green, blue] = COLOURS_NM;
-    let low = ((nm - blue) / (green - blue)).clamp(0.0, 1.0);
-    let high = ((nm - green) / (red - green)).clamp(0.0, 1.0);
-    [high, low - high, 1.0 - low]
-}
-
 /// What the mesh of the globe is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Globe {
@@ -52,7 +43,77 @@ pub struct Globe {
     pub distance: f64,
     /// Edge of its picture, pixels.
     pub picture_px: u32,
+    pub ground: Arc<Ground>,
     pub shadows: Arc<Shadows>,
+}
+
+/// How the ground sends light back at one phase angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ground {
+    /// Cells across and down, as maps lie.
+    pub size: (usize, usize),
+    /// Row by row, at 415, 566 and 643 nm.
+    pub cells: Vec<[PhaseCell; 3]>,
+    /// By the cosine of emission, then of incidence, each at [`Ground::NODES`] nodes in steps of its root.
+    pub facets: Vec<Facets>,
+}
+
+impl Ground {
+    pub const NODES: usize = 64;
+
+    pub fn at_phase(law: Reflectance, surface: &MoonSurface, phase: Angle) -> Ground {
+        let cosine = |node: usize| (node as f64 / (Ground::NODES - 1) as f64).powi(2).max(1e-4);
+        let nodes = (0..Ground::NODES * Ground::NODES)
+            .map(|at| (cosine(at % Ground::NODES), cosine(at / Ground::NODES)));
+        match law {
+            Reflectance::Hapke => Ground {
+                size: surface.size(),
+                cells: evened_at_poles(surface.at_phase(phase), surface.size()),
+                facets: nodes.map(|(i, e)| Facets::of(i, e, phase)).collect(),
+            },
+            // The phase is the same all over the disc: what it takes is the same too.
+            Reflectance::Jensen => Ground {
+                size: (2, 1),
+                cells: vec![[PhaseCell { single: 1.0, multiple: 0.0, w: 0.0 }; 3]; 2],
+                facets: nodes
+                    .map(|(i, e)| Facets { cos_incidence: i, cos_emission: e, shadowing: 1.0 })
+                    .collect(),
+            },
+        }
+    }
+}
+
+/// Towards the poles the parameters of single places are noise, and beyond 70 degrees there are none:
+/// there all longitudes share the mean of those at 60 to 70 degrees.
+fn evened_at_poles(
+    mut cells: Vec<[PhaseCell; 3]>,
+    (width, height): (usize, usize),
+) -> Vec<[PhaseCell; 3]> {
+    const EVEN_DEG: [f64; 2] = [60.0, 70.0];
+    let latitude_deg = |row: usize| 90.0 - 180.0 * (row as f64 + 0.5) / height as f64;
+    for north in [true, false] {
+        let is_of_cap = |row: usize| (latitude_deg(row) > 0.0) == north;
+        let evenness = |row: usize| {
+            ((latitude_deg(row).abs() - EVEN_DEG[0]) / (EVEN_DEG[1] - EVEN_DEG[0])).clamp(0.0, 1.0)
+        };
+        let (mut mean, mut count) = ([PhaseCell::default(); 3], 0.0);
+        for row in (0..height).filter(|&row| is_of_cap(row)) {
+            if evenness(row) > 0.0 && evenness(row) < 1.0 {
+                for cell in &cells[row * width..][..width] {
+                    count += 1.0;
+                    for (mean, part) in mean.iter_mut().zip(cell) {
+                        *mean = mean.towards(part, 1.0 / count);
+                    }
+                }
+            }
+        }
+        for row in (0..height).filter(|&row| is_of_cap(row)) {
+            for cell in &mut cells[row * width..][..width] {
+                *cell = std::array::from_fn(|band| cell[band].towards(&mean[band], evenness(row)));
+            }
+        }
+    }
+    cells
 }
 
 /// How finely the sphere is divided: bands around the point below the observer, and their parts.
@@ -256,6 +317,7 @@ mod tests {
         let relief = Arc::new(globe_with(|_, _| 0.0));
         let albedo = Arc::new(MoonMap { width: 8, height: 4, reff: vec![[0.1; 3]; 32] });
         let shadows = Arc::new(Shadows::cast(&relief, DVec3::X, SUN_RADIUS, 2000));
+        let ground = Arc::new(Ground { size: (2, 1), cells: Vec::new(), facets: Vec::new() });
         let globe = |picture_px| Globe {
             relief: Arc::clone(&relief),
             albedo: Arc::clone(&albedo),
@@ -263,6 +325,7 @@ mod tests {
             to_sun: DVec3::X,
             distance: 220.0,
             picture_px,
+            ground: Arc::clone(&ground),
             shadows: Arc::clone(&shadows),
         };
         let triangles = |px| globe(px).mesh().map(|band| band.triangles()).iter().sum::<u32>();

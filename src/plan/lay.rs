@@ -1,7 +1,7 @@
 //! Lays a night on the plane of the picture.
 
 use crate::camera::Camera;
-use crate::catalog::{CatalogError, MoonSurface};
+use crate::catalog::{CatalogError, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
 use crate::light::night::{Kind, LitObject, Night};
@@ -40,7 +40,7 @@ pub fn lay(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon: impl FnOnce() -> Result<MoonSurface, CatalogError>,
+    moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     lay_in(setting, layers, night, moon, &mut KeptAir::new(Store::NONE))
 }
@@ -51,7 +51,7 @@ pub fn lay_in(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon: impl FnOnce() -> Result<MoonSurface, CatalogError>,
+    moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
     kept: &mut KeptAir,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
@@ -216,7 +216,7 @@ enum Laid {
 /// Draws a body as a disc, or as points of light when it is small.
 fn lay_body(
     seen: &SeenBody,
-    moon: impl FnOnce() -> Result<Option<MoonSurface>, CatalogError>,
+    moon: impl FnOnce() -> Result<Option<MoonMaps>, CatalogError>,
     plan: &mut FramePlan,
 ) -> Result<Laid, PlanError> {
     let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };

@@ -26,12 +26,7 @@ impl DiscPass {
             shapes: pipeline(["vertex", "fragment"], strip),
             globes: pipeline(["globe_vertex", "globe_fragment"], list),
             globe: GlobePass::new(gpu),
-            across_picture: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("across the picture of a globe"),
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            }),
+            across_picture: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
         }
     }
 

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use half::f16;
 
 use crate::catalog::{MoonMap, MoonRelief};
-use crate::plan::globe::{EXTENT, Globe, Shadows};
+use crate::light::moon::surface::PhaseCell;
+use crate::plan::globe::{EXTENT, Globe, Ground, Shadows};
 use crate::units::MOON_RADIUS_KM;
 
 use super::gpu::Gpu;
@@ -23,6 +24,7 @@ pub struct GlobePass {
     sum_tile: wgpu::ComputePipeline,
     sum_all: wgpu::ComputePipeline,
     across_maps: wgpu::Sampler,
+    across_facets: wgpu::Sampler,
     maps: Mutex<Option<Maps>>,
 }
 
@@ -53,13 +55,8 @@ impl GlobePass {
             ),
             sum_tile: gpu.compute_pipeline("sum_tile", &mean),
             sum_all: gpu.compute_pipeline("sum_all", &mean),
-            across_maps: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("across maps"),
-                address_mode_u: wgpu::AddressMode::Repeat,
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            }),
+            across_maps: gpu.linear_sampler(wgpu::AddressMode::Repeat),
+            across_facets: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
             maps: Mutex::new(None),
         }
     }
@@ -76,6 +73,7 @@ impl GlobePass {
         let picture = texture("globe", PICTURE_FORMAT, binding).create_view(&Default::default());
         let depth = texture("depth of the globe", DEPTH_FORMAT, wgpu::TextureUsages::empty());
         let uniform = storage(gpu, "globe", bytemuck::bytes_of(&GlobeUniform::of(globe)));
+        let [once, often, facets] = ground_textures(gpu, &globe.ground);
         let bands = globe.mesh().map(|band| {
             let buffer = storage(gpu, "band", bytemuck::bytes_of(&MeshBandUniform::of(&band)));
             let group = bind(
@@ -88,6 +86,10 @@ impl GlobePass {
                     wgpu::BindingResource::TextureView(&maps.albedo.2),
                     wgpu::BindingResource::TextureView(&maps.shadows.1),
                     wgpu::BindingResource::Sampler(&self.across_maps),
+                    wgpu::BindingResource::TextureView(&once),
+                    wgpu::BindingResource::TextureView(&often),
+                    wgpu::BindingResource::TextureView(&facets),
+                    wgpu::BindingResource::Sampler(&self.across_facets),
                 ],
             );
             let indices = lattice_indices(band.sectors, band.rings);
@@ -252,6 +254,28 @@ fn relief_texture(gpu: &Gpu, relief: &MoonRelief, level: u32) -> wgpu::TextureVi
     let format = wgpu::TextureFormat::Rgba16Float;
     let size = [width as u32, height as u32];
     map_texture(gpu, "relief", size, format, bytemuck::cast_slice(&texels))
+}
+
+/// What is scattered once and often, and what roughness makes of directions.
+fn ground_textures(gpu: &Gpu, ground: &Ground) -> [wgpu::TextureView; 3] {
+    let texture = |label, (width, height): (usize, usize), texels: Vec<[f64; 4]>| {
+        let texels: Vec<u16> =
+            texels.iter().flatten().map(|&v| f16::from_f64(v).to_bits()).collect();
+        let format = wgpu::TextureFormat::Rgba16Float;
+        let size = [width as u32, height as u32];
+        map_texture(gpu, label, size, format, bytemuck::cast_slice(&texels))
+    };
+    // Cells run from 415 to 643 nm, colours from red to blue.
+    let cells = |of: fn(&[PhaseCell; 3]) -> [f64; 4]| ground.cells.iter().map(of).collect();
+    let once = cells(|[b, g, r]| [r.single, g.single, b.single, g.w]);
+    let often = cells(|[b, g, r]| [r.multiple, g.multiple, b.multiple, 0.0]);
+    let facets = ground.facets.iter();
+    let facets = facets.map(|f| [f.cos_incidence, f.cos_emission, f.shadowing, 0.0]).collect();
+    [
+        texture("scattered once", ground.size, once),
+        texture("scattered often", ground.size, often),
+        texture("facets", (Ground::NODES, Ground::NODES), facets),
+    ]
 }
 
 fn albedo_texture(gpu: &Gpu, albedo: &MoonMap, level: u32) -> wgpu::TextureView {

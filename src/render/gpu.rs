@@ -132,6 +132,17 @@ impl Gpu {
         })
     }
 
+    /// Reads straight between texels; what lies beyond the left and right edge as said, beyond the others
+    /// the edge.
+    pub fn linear_sampler(&self, beyond: wgpu::AddressMode) -> wgpu::Sampler {
+        self.device.create_sampler(&wgpu::SamplerDescriptor {
+            address_mode_u: beyond,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        })
+    }
+
     pub fn texture(
         &self,
         label: &str,

@@ -12,7 +12,7 @@ use crate::camera::{Camera, Projection};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
-use crate::plan::globe::{EXTENT, Globe, MeshBand, Shadows};
+use crate::plan::globe::{EXTENT, Globe, Ground, MeshBand, Shadows};
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
@@ -77,6 +77,7 @@ pub struct GlobeUniform {
     pub extent: f32,
     pub first_shadow: f32,
     pub last_shadow: f32,
+    pub darkness: [f32; 4],
 }
 
 /// `MeshBand` of `shaders/globe.wgsl`.
@@ -171,8 +172,17 @@ impl GlobeUniform {
             extent: EXTENT as f32,
             first_shadow: Shadows::FIRST.rad() as f32,
             last_shadow: Shadows::LAST.rad() as f32,
+            darkness: darkness(&globe.ground),
         }
     }
+}
+
+/// Mean single-scattering albedo over that at 566 nm, at 643, 566 and 415 nm.
+fn darkness(ground: &Ground) -> [f32; 4] {
+    let sum = |band: usize| ground.cells.iter().map(|cell| cell[band].w).sum::<f64>();
+    let green = sum(1);
+    let ratio = |band| if green > 0.0 { (sum(band) / green) as f32 } else { 1.0 };
+    [ratio(2), 1.0, ratio(0), 0.0]
 }
 
 impl MeshBandUniform {

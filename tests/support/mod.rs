@@ -71,7 +71,7 @@ pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed
         setting.tolerance,
     )?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
-    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_surface())?;
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_maps())?;
     Ok((plan, ledger, setting, night))
 }
 

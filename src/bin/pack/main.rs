@@ -16,8 +16,10 @@ use nocturne::catalog::sha256_hex;
 use nocturne::ephemeris::orientation::nutation::table as nutation_table;
 use nocturne::export::OutputFile;
 
-/// The picture of the Moon is not in the repository: SOURCES.toml says where it comes from.
+/// The maps of the Moon are not in the repository: SOURCES.toml says where they come from.
 const MOON_PICTURE: &str = "moon_lroc_color_4096x2048.jpg";
+const MOON_RELIEF: &str = "moon_dem_8ppd_u16.png";
+const MOON_HAPKE: &str = "moon_hapke_sato2014_3x140x360x5.f16le";
 
 /// Pack the raw tables into the catalogues that nocturne reads.
 #[derive(Parser)]
@@ -32,6 +34,13 @@ struct Args {
     /// [default: moon_lroc_color_4096x2048.jpg among the raw tables, if it is there]
     #[arg(long, value_name = "FILE")]
     moon: Option<PathBuf>,
+    /// Picture of the Moon's heights, 16 bits [default: moon_dem_8ppd_u16.png, likewise]
+    #[arg(long, value_name = "FILE")]
+    relief: Option<PathBuf>,
+    /// Hapke parameters of the Moon
+    /// [default: moon_hapke_sato2014_3x140x360x5.f16le, likewise]
+    #[arg(long, value_name = "FILE")]
+    hapke: Option<PathBuf>,
     /// Directory of the kernels; the table of one that is not there stays as it is
     #[arg(long, value_name = "DIR", default_value = "target/kernels")]
     kernels: PathBuf,
@@ -58,11 +67,19 @@ fn run(args: &Args) -> Result<bool, String> {
         pack::places(&args.raw).map_err(|error| error.to_string())?,
         nutation()?,
     ];
-    match moon_picture(args) {
-        Some(path) => packed.push(moon(&args.raw, &path)?),
-        None => println!(
-            "moon_albedo.bin: no {MOON_PICTURE} among the raw tables, the packed map stays as it is"
-        ),
+    let maps: [(_, _, &dyn Fn(&Path) -> _); 3] = [
+        (MOON_PICTURE, &args.moon, &|path| moon(&args.raw, path)),
+        (MOON_RELIEF, &args.relief, &relief),
+        (MOON_HAPKE, &args.hapke, &hapke),
+    ];
+    for (usual, given, pack) in maps {
+        let among_raw = args.raw.join(usual);
+        match given.clone().or_else(|| among_raw.is_file().then_some(among_raw)) {
+            Some(path) => packed.push(pack(&path)?),
+            None => {
+                println!("no {usual} among the raw tables: what is packed of it stays as it is")
+            }
+        }
     }
     packed.extend(kernels::tables(&args.kernels)?);
     packed.extend(aerosols::tables());
@@ -79,17 +96,25 @@ fn nutation() -> Result<Packed, String> {
     Ok(Packed { file: nutation_table::FILE, bytes: nutation_table::encode()?, summary })
 }
 
-fn moon_picture(args: &Args) -> Option<PathBuf> {
-    let usual = args.raw.join(MOON_PICTURE);
-    args.moon.clone().or_else(|| usual.is_file().then_some(usual))
-}
-
 fn moon(raw: &Path, picture: &Path) -> Result<Packed, String> {
     let rgb = image::open(picture)
         .map_err(|error| format!("{}: {error}; give a JPEG or PNG", picture.display()))?
         .into_rgb8();
     let size = (rgb.width() as usize, rgb.height() as usize);
     pack::moon(raw, rgb.as_raw(), size).map_err(|error| error.to_string())
+}
+
+fn relief(picture: &Path) -> Result<Packed, String> {
+    let metres = image::open(picture)
+        .map_err(|error| format!("{}: {error}; give a PNG of 16 bits", picture.display()))?
+        .into_luma16();
+    let size = (metres.width() as usize, metres.height() as usize);
+    pack::moon_relief(metres.as_raw(), size).map_err(|error| error.to_string())
+}
+
+fn hapke(table: &Path) -> Result<Packed, String> {
+    let bytes = fs::read(table).map_err(|error| format!("{}: {error}", table.display()))?;
+    pack::moon_hapke(&bytes).map_err(|error| error.to_string())
 }
 
 fn check(out: &Path, packed: &[Packed]) -> bool {
