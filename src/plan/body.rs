@@ -167,7 +167,11 @@ impl<'a> SeenBody<'a> {
         let altitudes: [Angle; NODES] = std::array::from_fn(|node| lowest + step * node as f64);
 
         let sight = SightLines::over(&self.night.air, self.night.sky.place.height_m);
-        let irradiance = self.night.irradiance(self.state);
+        // What the Moon hides of the Sun is left out as it is drawn.
+        let irradiance = match self.state.body {
+            Body::Sun => self.night.irradiance_without_eclipse(self.state),
+            _ => self.night.irradiance(self.state),
+        };
         let spectra = altitudes.map(|altitude| irradiance * sight.transmittance(altitude));
         let bands = if is_coloured { self.coloured(apart_px, &altitudes, &spectra) } else { None };
         let bands = bands.unwrap_or_else(|| {
