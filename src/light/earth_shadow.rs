@@ -21,8 +21,11 @@
 //! begins to fail, by refraction, 80 km above the ground, which is what Danjon's enlargement of 1 % of
 //! the equatorial radius (71 km) says for the contacts of [`crate::almanac::eclipse`].
 //!
-//! *Left out.* Sunlight that the air scatters towards the Moon (Garcia-Munoz & Pallé 2011, *JQSRT*
-//! 112, 1609, find it to matter in the darkest eclipses alone), the flattening of the Earth (0.3 % of
+//! *Scattered light.* Sunlight that the limb scatters towards the Moon is added in its first order
+//! ([`limb`]): as Garcia-Munoz & Pallé 2011, *JQSRT* 112, 1609, find, it matters in the blue and in
+//! the darkest eclipses alone.
+//!
+//! *Left out.* Higher orders of scattering, the flattening of the Earth (0.3 % of
 //! its radius), dispersion, weather and ozone that differ along the limb, bands of oxygen and water.
 //!
 //! *Accuracy.* The table is read within 2 % (tested). The penumbra is geometry: a per cent. The umbra
@@ -129,10 +132,9 @@ impl EarthShadow {
         let rings = Rings::lit_through(limb, &distances, rim_rad + sun_rad);
         let laws: Vec<[f64; 6]> =
             (0..LEN).map(|k| LimbDarkening::at_nm(wavelength_nm(k)).coefficients()).collect();
-        let node = |node: usize| match node {
-            0..NODES => rings.logarithms_at(step_rad * node as f64, sun_rad, &laws),
-            _ => [0.0; LEN],
-        };
+        let scattered = scattered(limb, &distances);
+        let node =
+            |node: usize| rings.logarithms_at(step_rad * node as f64, sun_rad, &laws, &scattered);
         let mut logarithms: Vec<[f64; LEN]> = (0..NODES - 1).map(node).collect();
         logarithms.push([0.0; LEN]);
         EarthShadow { distances, step_rad, logarithms }
@@ -275,7 +277,13 @@ impl Rings {
     }
 
     /// Logarithms of the shares of light of a Sun whose middle is this far from the Earth's.
-    fn logarithms_at(&self, offset: f64, sun: f64, laws: &[[f64; 6]]) -> [f64; LEN] {
+    fn logarithms_at(
+        &self,
+        offset: f64,
+        sun: f64,
+        laws: &[[f64; 6]],
+        scattered: &[f64; LEN],
+    ) -> [f64; LEN] {
         let (mut light, mut whole) = ([0.0; LEN], [0.0; LEN]);
         let first = ((offset - sun).max(0.0) / self.width_rad) as usize;
         let last = (((offset + sun) / self.width_rad) as usize).min(RINGS - 1);
@@ -290,8 +298,21 @@ impl Rings {
                 whole[k] += radiance * solid;
             }
         }
-        std::array::from_fn(|k| (light[k] / whole[k]).clamp(NO_LIGHT, 1.0).ln())
+        std::array::from_fn(|k| (light[k] / whole[k] + scattered[k]).clamp(NO_LIGHT, 1.0).ln())
     }
+}
+
+/// Light of the whole limb that the air scattered, over that of the Sun.
+fn scattered(limb: &EarthLimb, distances: &ShadowDistances) -> [f64; LEN] {
+    let mut sums = [0.0; LEN];
+    for pair in limb.rays().windows(2) {
+        let [low, high] = [&pair[0], &pair[1]].map(|ray| distances.limb_rad(ray.impact_km));
+        let solid_sr = PI * (high * high - low * low);
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum += 0.5 * (pair[0].scattered_sr[k] + pair[1].scattered_sr[k]) * solid_sr;
+        }
+    }
+    sums
 }
 
 /// Integrals of the powers 0 to 5 of the cosine of emergence along a circle about the Earth's centre,

@@ -5,22 +5,30 @@
 //! US Standard Atmosphere 1976 less five kelvin, with the ozone of the air that is given. A ray that
 //! touches the sea is bent by 70 arcminutes.
 //!
+//! *Scattered light.* Looking at the limb from the Moon the Sun stands behind it, within a degree. Light
+//! that is scattered once by so little runs all but the same way as the ray: whatever the place of the
+//! scattering, a chord of optical depth `t`, of which `t_s` scatters with the phase function `P(0)`, has
+//! the radiance `P(0) t_s exp(-t)` for an irradiance of one. It is 3e-7 of sunlight in all, which
+//! matters where the umbra is darkest: in the blue. Higher orders are left out.
+//!
 //! *Darkness.* Danjon's number L says how dark a total eclipse is, 0 (almost invisible) to 4 (bright
 //! copper or orange, with a bluish rim). What makes the difference is cloud and haze in the lower air
-//! and, after eruptions, droplets in the stratosphere (Keen 1983, *Science* 222, 1011). Here, as a
-//! choice of ours between measured clear and volcanic states, each straight (the depth in its
-//! logarithm) from L = 0 to L = 4:
+//! and, after eruptions, droplets about the tropopause and above (Keen 1983, *Science* 222, 1011).
+//! Here, as a choice of ours between clear and volcanic states, each straight from L = 0 to L = 4:
 //!
 //! | | L = 0 | L = 4 |
 //! |---|---|---|
-//! | stratospheric optical depth at 550 nm, 14 to 26 km | 0.080 | 0.003 |
+//! | optical depth at 550 nm of high haze, 10 to 22 km | 0.090 | 0.003 |
 //! | height up to which clouds stand in the way | 13 km | 9 km |
-//! | part of the limb without them at the ground | 0.08 | 0.60 |
+//! | part of the limb without them at the ground | 0.10 | 0.60 |
 //!
-//! The background of the stratosphere is 0.003 to 0.005; Pinatubo made 0.15 (recalled). Between the
-//! ground and the cloud tops the part of the limb that is free grows smoothly to 1. The numbers are
-//! set so that the middle of the umbra spans what is observed, a millionth to a ten-thousandth of full
-//! moonlight.
+//! The background of the stratosphere is 0.003 to 0.005; Pinatubo made 0.15 (recalled). A ray that
+//! touches the lower air crosses the haze at a slant of some thirty times its depth, so that the
+//! light falls by the same factor from each number to the next. Between the ground and the cloud tops the
+//! part of the limb that is free grows smoothly to 1. The numbers are set so that the middle of the
+//! umbra spans a millionth to a ten-thousandth of full sunlight.
+
+use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +38,7 @@ use crate::air::refraction::Rays;
 use crate::air::{
     AirError, Atmosphere, EARTH_RADIUS_KM, Ground, LightPaths, ObserverWeather, SEEN_NM,
 };
-use crate::light::spectrum::Transmittance;
+use crate::light::spectrum::{LEN, Transmittance, wavelength_nm};
 use crate::units::Angle;
 
 /// Height above which the air neither bends nor dims, kilometres.
@@ -39,13 +47,15 @@ pub const LIMB_TOP_KM: f64 = 100.0;
 /// Heights at which the distance between rays changes, and that distance below, kilometres.
 const SPACING_KM: [(f64, f64); 4] = [(14.0, 0.2), (40.0, 0.5), (70.0, 1.0), (LIMB_TOP_KM, 2.0)];
 
-/// Stratospheric optical depth at 550 nm, height of cloud tops in kilometres, and free part of the
+/// Optical depth of the high haze at 550 nm, height of cloud tops in kilometres, and free part of the
 /// limb at the ground, for L = 0 and L = 4.
-const DEPTHS_550: [f64; 2] = [0.080, 0.003];
+const DEPTHS_550: [f64; 2] = [0.090, 0.003];
 const CLOUD_TOPS_KM: [f64; 2] = [13.0, 9.0];
-const FREE_AT_GROUND: [f64; 2] = [0.08, 0.60];
-/// Where the droplets of the stratosphere are, kilometres.
-const DROPLETS_KM: [f64; 2] = [14.0, 26.0];
+const FREE_AT_GROUND: [f64; 2] = [0.10, 0.60];
+/// Cosine of the angle by which light turns that is scattered towards the Moon: a degree.
+const FORWARD: f64 = 0.999_85;
+/// Where the high haze is, kilometres.
+const HAZE_KM: [f64; 2] = [10.0, 22.0];
 
 /// Danjon's number of the darkness of a lunar eclipse: 0, very dark, to 4, bright orange.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
@@ -74,9 +84,9 @@ impl Danjon {
         (self.0 / Danjon::BRIGHTEST).clamp(0.0, 1.0)
     }
 
-    /// Optical depth of the stratosphere's aerosol at 550 nm.
-    pub fn stratospheric_depth_550(self) -> f64 {
-        self.between(DEPTHS_550.map(f64::ln)).exp()
+    /// Optical depth of the high haze at 550 nm.
+    pub fn haze_depth_550(self) -> f64 {
+        self.between(DEPTHS_550)
     }
 
     /// Part of the limb, 0 to 1, in which no cloud stands in the way of a ray that comes down to a
@@ -106,6 +116,9 @@ pub struct LimbRay {
     pub bending: Angle,
     /// What is left of its light.
     pub passes: Transmittance,
+    /// Radiance along it of light that the air scattered, for an irradiance of one by a Sun behind it,
+    /// per steradian.
+    pub scattered_sr: [f64; LEN],
 }
 
 /// Grazing rays from the sea to [`LIMB_TOP_KM`], ascending.
@@ -122,9 +135,9 @@ impl EarthLimb {
     ///
     /// Air that cannot be: see [`Atmosphere::validate`].
     pub fn new(air: &Atmosphere, danjon: Danjon) -> Result<EarthLimb, AirError> {
-        let [bottom_km, top_km] = DROPLETS_KM;
-        let droplets = Aerosol {
-            optical_depth_550: danjon.stratospheric_depth_550(),
+        let [bottom_km, top_km] = HAZE_KM;
+        let haze = Aerosol {
+            optical_depth_550: danjon.haze_depth_550(),
             angstrom_exponent: Some(1.0),
             profile: AerosolProfile::Layer { bottom_km, top_km },
             ..Aerosol::default()
@@ -133,7 +146,7 @@ impl EarthLimb {
             observer: ObserverWeather::default(),
             ozone: air.ozone.clone(),
             aerosol: Aerosol { optical_depth_550: 0.0, ..Aerosol::default() },
-            stratospheric_aerosol: Some(droplets),
+            stratospheric_aerosol: Some(haze),
             ground: Ground { height_m: Some(0.0), ..Ground::default() },
             paths: LightPaths::default(),
         };
@@ -152,6 +165,7 @@ impl EarthLimb {
             impact_km: EARTH_RADIUS_KM + height_km,
             bending: Angle::ZERO,
             passes: Transmittance::CLEAR,
+            scattered_sr: [0.0; LEN],
         });
         Ok(EarthLimb { rays })
     }
@@ -169,13 +183,26 @@ fn ray(air: &Atmosphere, danjon: Danjon, height_km: f64) -> Result<LimbRay, AirE
     let rays = Rays::over_ground(&air.observer_air(height_m, SEEN_NM), 0.0)?;
     let kelvin = air.temperature_c_at(height_m) + 273.15;
     let density = air.pressure_mbar_at(height_m) / 1013.25 * 288.15 / kelvin;
-    let half = SightLines::over(air, height_m).transmittance(Angle::ZERO);
+    let columns = SightLines::over(air, height_m).columns(Angle::ZERO);
     let free = danjon.free_of_cloud(height_km);
+    let (mut passes, mut scattered_sr) = ([0.0; LEN], [0.0; LEN]);
+    for (node, half) in columns.optical_depths(air).into_iter().enumerate() {
+        let [molecules, _, haze] = half.map(|depth| 2.0 * depth);
+        passes[node] = free * (-2.0 * half.iter().sum::<f64>()).exp();
+        let forward = |aerosol: &Aerosol| {
+            let nm = wavelength_nm(node);
+            aerosol.albedo(nm) * aerosol.phase(nm, FORWARD)
+        };
+        let by_haze = air.stratospheric_aerosol.as_ref().map_or(0.0, forward);
+        let by_molecules = 3.0 / (16.0 * PI) * (1.0 + FORWARD * FORWARD);
+        scattered_sr[node] = passes[node] * (molecules * by_molecules + haze * by_haze);
+    }
     Ok(LimbRay {
         height_km,
         impact_km: (1.0 + REFRACTIVITY * density) * (EARTH_RADIUS_KM + height_km),
         bending: rays.at_apparent_altitude(Angle::ZERO) * 2.0,
-        passes: Transmittance::from_fractions(half.values().map(|t| t * t * free)),
+        passes: Transmittance::from_fractions(passes),
+        scattered_sr,
     })
 }
 
@@ -200,7 +227,7 @@ mod tests {
         let low = at(6.0).passes;
         assert!(low.at_nm(670.0) > 10.0 * low.at_nm(450.0));
         let high = at(30.0).passes;
-        assert!(high.at_nm(450.0) > 1.1 * high.at_nm(600.0));
+        assert!(high.at_nm(450.0) > 1.1 * high.at_nm(600.0), "{high:?}");
     }
 
     #[test]
