@@ -15,7 +15,7 @@
 //! makes the yellow horizon all around and a sky of about a thousandth to a ten-thousandth of
 //! daylight (recalled). None of that is in it: a total eclipse is drawn too dark.
 //!
-//! *Accuracy.* 0.01 % of the Sun (tested against the area of two circles without limb darkening).
+//! *Accuracy.* 0.02 % of the Sun (tested against the area of two circles without limb darkening).
 
 use std::f64::consts::PI;
 
@@ -26,8 +26,8 @@ use crate::light::sun::{self, LimbDarkening};
 use crate::sky::SkyState;
 use crate::units::Angle;
 
-/// Rings of the Sun.
-const RINGS: usize = 512;
+/// Rings of the Sun between those where the Moon's limb begins and ends.
+const RINGS: usize = 96;
 
 /// The Sun with the Moon before it, as one observer sees them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,7 @@ impl CoveredSun {
 
     /// Part of the area of the Sun that is covered, 0 to 1.
     pub fn obscuration(&self) -> f64 {
-        1.0 - self.open_powers()[0]
+        (1.0 - self.open_powers()[0]).clamp(0.0, 1.0)
     }
 
     /// What is left of the light of the disc, by wavelength.
@@ -100,15 +100,22 @@ impl CoveredSun {
     fn open_powers(&self) -> [f64; 6] {
         let sun = self.sun_radius.rad();
         let (moon, apart) = (self.moon_radius.rad() / sun, self.separation.rad() / sun);
+        // Between the rings that touch the Moon's limb what is open is smooth.
+        let mu_at = |radii: f64| (1.0 - radii * radii).max(0.0).sqrt();
+        let ends = [0.0, mu_at(moon + apart), mu_at((moon - apart).abs()), 1.0];
         let mut sums = [0.0; 6];
-        for ring in 0..RINGS {
-            let mu = (ring as f64 + 0.5) / RINGS as f64;
-            let radii = (1.0 - mu * mu).sqrt();
-            let open = 1.0 - arc(radii, apart, moon) / PI;
-            let mut part = 2.0 * mu / RINGS as f64 * open;
-            for sum in &mut sums {
-                *sum += part;
-                part *= mu;
+        for piece in ends.windows(2).filter(|piece| piece[1] > piece[0]) {
+            let (middle, half) = (0.5 * (piece[1] + piece[0]), 0.5 * (piece[1] - piece[0]));
+            for ring in 0..RINGS {
+                // Crowded towards the ends, where it goes as a root.
+                let (sin, cos) = ((ring as f64 + 0.5) / RINGS as f64 * PI).sin_cos();
+                let mu = middle - half * cos;
+                let open = 1.0 - arc((1.0 - mu * mu).sqrt(), apart, moon) / PI;
+                let mut part = 2.0 * mu * half * sin * PI / RINGS as f64 * open;
+                for sum in &mut sums {
+                    *sum += part;
+                    part *= mu;
+                }
             }
         }
         sums
