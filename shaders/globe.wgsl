@@ -15,6 +15,10 @@ struct Globe {
     last_shadow: Radians,
     // Single-scattering albedo over that at 566 nm, by colour.
     darkness: vec4f,
+    // In an eclipse, in radii of the Moon and its own axes: towards the Sun, in w the angle between Sun and
+    // Earth at the rim of the Earth's shadow; towards the Earth, in w its distance.
+    sun: vec4f,
+    earth: vec4f,
 }
 
 // A band of the mesh around the point below the observer: rings of corners, each a full turn.
@@ -42,6 +46,8 @@ struct MeshBand {
 // their roots: effective cosines, and the light that is left.
 @group(0) @binding(8) var facets: texture_2d<f32>;
 @group(0) @binding(9) var across_facets: sampler;
+// What the Earth leaves of the Sun's light, by colour, from the axis of its shadow to the rim.
+@group(0) @binding(10) var umbra: texture_2d<f32>;
 
 struct Ground {
     @builtin(position) position: vec4f,
@@ -91,6 +97,20 @@ fn sunlit(in_sun: vec3f) -> f32 {
     return textureSampleLevel(shadows, across_maps, at, 0.0).x;
 }
 
+// What the Earth leaves of the Sun's light at a point of the globe, by colour.
+fn beside_earth(outward: vec3f) -> vec3f {
+    if globe.sun.w == 0.0 {
+        return vec3f(1.0);
+    }
+    let to_earth = globe.earth.xyz - outward;
+    let away = length(to_earth);
+    // A point nearer to the Earth sees it larger.
+    let chord = length(normalize(globe.sun.xyz - outward) - to_earth / away) * (away / globe.earth.w);
+    let size = f32(textureDimensions(umbra).x);
+    let at = min(chord / globe.sun.w, 1.0) * ((size - 1.0) / size) + 0.5 / size;
+    return textureSampleLevel(umbra, across_facets, vec2f(at, 0.5), 0.0).xyz;
+}
+
 // Chandrasekhar's function, by colour, in Hapke's approximation; dim is the root of 1 - w.
 fn h_function(cosine: f32, dim: vec3f) -> vec3f {
     return (1.0 + 2.0 * cosine) / (1.0 + 2.0 * cosine * dim);
@@ -128,5 +148,6 @@ fn fragment(ground: Ground) -> @location(0) vec4f {
     if cos_incidence <= 0.0 || sun == 0.0 {
         return vec4f(vec3f(0.0), earthlit);
     }
-    return vec4f(reflectance * law(at, cos_incidence, cos_emission) * sun, earthlit);
+    let light = beside_earth(outward) * sun;
+    return vec4f(reflectance * law(at, cos_incidence, cos_emission) * light, earthlit);
 }

@@ -5,12 +5,16 @@
 //! of the ephemeris; what the air takes away is folded in by [`star_light`] and by
 //! [`crate::air::extinction`].
 
+pub mod corona;
 pub mod diffuse;
 pub mod disc_light;
+pub mod earth_shadow;
+pub mod earthshine;
 pub mod moon;
 pub mod night;
 pub mod planets;
 pub mod point_light;
+pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;

@@ -1,5 +1,7 @@
 //! Everything in the sky that is drawn as itself: where it stands, where it is seen, how bright.
 
+use std::sync::Arc;
+
 use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
@@ -7,9 +9,12 @@ use crate::catalog::Star;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::{point_light, visible_light};
+use crate::light::earth_shadow::{Danjon, EarthShadow, ShadowedMoon};
+use crate::light::earthshine::{self, EarthView};
 use crate::light::moon::{self, MoonView};
 use crate::light::planets::{self, Planet, PlanetView};
-use crate::light::spectrum::Spectrum;
+use crate::light::solar_eclipse::CoveredSun;
+use crate::light::spectrum::{Spectrum, Transmittance};
 use crate::light::star_light::StarLight;
 use crate::light::sun;
 use crate::sky::{BodyState, RingTilt, SkyState};
@@ -58,11 +63,52 @@ pub struct Night {
     /// Sun, Moon, planets, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,
     pub stars: Vec<Star>,
+    /// What an eclipse takes from the Sun and the Moon.
+    pub eclipse: Eclipsed,
+}
+
+/// What stands in the way of sunlight: the Moon before the Sun, the Earth before the Moon. Outside
+/// eclipses neither.
+#[derive(Debug, Clone, Default)]
+pub struct Eclipsed {
+    pub sun: Option<CoveredSun>,
+    pub moon: Option<MoonInShadow>,
+}
+
+/// The Moon in the shadow of the Earth.
+#[derive(Debug, Clone)]
+pub struct MoonInShadow {
+    pub shadow: Arc<EarthShadow>,
+    pub place: ShadowedMoon,
+    /// What is left of the light of the whole disc.
+    pub mean: Transmittance,
+}
+
+impl Eclipsed {
+    /// Air that cannot be makes no shadow.
+    fn of(sky: &SkyState, air: &Atmosphere, danjon: Danjon) -> Eclipsed {
+        let sun = Some(CoveredSun::of(sky)).filter(|sun| !sun.is_whole());
+        let place = ShadowedMoon::of(sky);
+        let in_shadow = || {
+            let shadow = EarthShadow::new(air, danjon, place.distances).ok()?;
+            let mean = shadow.over_disc(place.offset, place.disc_radius());
+            Some(MoonInShadow { shadow: Arc::new(shadow), place, mean })
+        };
+        let moon = if place.is_outside() { None } else { in_shadow() };
+        Eclipsed { sun, moon }
+    }
 }
 
 impl Night {
-    /// Lights the sky. The stars are those of the catalogue.
+    /// Lights the sky. The stars are those of the catalogue; an eclipse of the Moon is as dark as
+    /// most are.
     pub fn of(sky: SkyState, stars: Vec<Star>, air: &Atmosphere) -> Night {
+        Night::with_danjon(sky, stars, air, Danjon::default())
+    }
+
+    /// The same, with a number that says how dark an eclipse of the Moon is.
+    pub fn with_danjon(sky: SkyState, stars: Vec<Star>, air: &Atmosphere, danjon: Danjon) -> Night {
+        let eclipse = Eclipsed::of(&sky, air, danjon);
         let height_m = sky.place.height_m;
         let refraction = air.refraction_at(height_m);
         let sight = SightLines::over(air, height_m);
@@ -87,7 +133,7 @@ impl Night {
             }
         };
         let mut objects: Vec<LitObject> =
-            bodies(&sky).map(|state| body(state, irradiance(state, &sky))).collect();
+            bodies(&sky).map(|state| body(state, irradiance(state, &sky, &eclipse))).collect();
 
         let starlight = StarLight::new(air, height_m);
         let directions = sky.stars(&stars);
@@ -110,7 +156,7 @@ impl Night {
                 ground,
             }
         }));
-        Night { sky, air: air.clone(), refraction, horizon, objects, stars }
+        Night { sky, air: air.clone(), refraction, horizon, objects, stars, eclipse }
     }
 
     /// Where the Sun, the Moon and the planets stand.
@@ -118,9 +164,24 @@ impl Night {
         bodies(&self.sky)
     }
 
-    /// Spectral irradiance of a body outside the air, W m-2 nm-1, on a plane that faces it.
+    /// Spectral irradiance of a body outside the air, W m-2 nm-1, on a plane that faces it; of the Sun
+    /// and the Moon what an eclipse leaves.
     pub fn irradiance(&self, state: &BodyState) -> Spectrum {
-        irradiance(state, &self.sky)
+        irradiance(state, &self.sky, &self.eclipse)
+    }
+
+    /// The same without any eclipse: the light of a disc of which a part is hidden as it is drawn.
+    pub fn irradiance_without_eclipse(&self, state: &BodyState) -> Spectrum {
+        irradiance(state, &self.sky, &Eclipsed::default())
+    }
+
+    /// Spectral irradiance of the Moon by the Earth's light alone, W m-2 nm-1; its sunlit part is counted
+    /// too.
+    pub fn earthlit_moon(&self) -> Spectrum {
+        let moon = &self.sky.moon.state;
+        let earth =
+            EarthView::of_moon_phase(moon.phase_angle, moon.distance_km, moon.sun_distance_km);
+        earthshine::disc_irradiance(&moon_view(&self.sky), &earth)
     }
 
     /// The Sun, the Moon or a planet.
@@ -159,10 +220,16 @@ fn bodies(sky: &SkyState) -> impl Iterator<Item = &BodyState> {
     [&sky.sun, &sky.moon.state].into_iter().chain(&sky.planets)
 }
 
-fn irradiance(state: &BodyState, sky: &SkyState) -> Spectrum {
+fn irradiance(state: &BodyState, sky: &SkyState, eclipse: &Eclipsed) -> Spectrum {
     let planet = match state.body {
-        Body::Sun => return sun::irradiance(state.distance_km),
-        Body::Moon => return moon_irradiance(sky),
+        Body::Sun => {
+            let covered = eclipse.sun.map(|covered| covered.irradiance(state.distance_km));
+            return covered.unwrap_or_else(|| sun::irradiance(state.distance_km));
+        }
+        Body::Moon => {
+            let left = eclipse.moon.as_ref().map_or(Transmittance::CLEAR, |moon| moon.mean);
+            return moon_irradiance(sky) * left;
+        }
         Body::Mercury => Planet::Mercury,
         Body::Venus => Planet::Venus,
         Body::Mars => Planet::Mars,
@@ -185,15 +252,19 @@ fn irradiance(state: &BodyState, sky: &SkyState) -> Spectrum {
 }
 
 fn moon_irradiance(sky: &SkyState) -> Spectrum {
+    moon::irradiance(&moon_view(sky))
+}
+
+fn moon_view(sky: &SkyState) -> MoonView {
     let moon = &sky.moon;
-    moon::irradiance(&MoonView {
+    MoonView {
         phase: moon.state.phase_angle,
         sun_longitude: Some(moon.subsolar.longitude),
         observer_longitude: moon.libration.longitude,
         observer_latitude: moon.libration.latitude,
         sun_distance_km: moon.state.sun_distance_km,
         observer_distance_km: moon.state.distance_km,
-    })
+    }
 }
 
 /// A name without the differences that people do not mean.

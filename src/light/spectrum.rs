@@ -137,6 +137,15 @@ impl Transmittance {
         debug_assert!(depths.iter().all(|depth| *depth >= 0.0), "an optical depth is negative");
         Transmittance(depths.map(|depth| (-depth).exp()))
     }
+    /// From the fractions at the nodes, each 0 to 1.
+    pub fn from_fractions(fractions: [f64; LEN]) -> Self {
+        debug_assert!(fractions.iter().all(|f| (0.0..=1.0).contains(f)), "no fraction");
+        Transmittance(fractions)
+    }
+    /// The fraction at a wavelength; straight between nodes, zero outside the grid.
+    pub fn at_nm(&self, at_nm: f64) -> f64 {
+        Spectrum(self.0).at_nm(at_nm)
+    }
     /// The fractions at the nodes.
     pub const fn values(&self) -> &[f64; LEN] {
         &self.0

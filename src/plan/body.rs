@@ -20,7 +20,7 @@ use crate::sky::BodyState;
 use crate::units::{Angle, MOON_RADIUS_KM, SUN_RADIUS_KM, Xyzv};
 
 use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
-use super::globe::{CHANNELS, EXTENT, Globe, Ground, Shadows};
+use super::globe::{CHANNELS, EXTENT, Globe, Ground, Shadows, UmbraTable};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -233,13 +233,17 @@ impl<'a> SeenBody<'a> {
     /// Spectral irradiance outside the air. Of a globe, what its surface sends by each of its colours, and
     /// what the Earth lights; else all in the first channel.
     fn irradiances(&self) -> [Spectrum; CHANNELS] {
-        let irradiance = self.night.irradiance(self.state);
+        // What the Moon hides of the Sun is left out as it is drawn.
+        let irradiance = match self.state.body {
+            Body::Sun => self.night.irradiance_without_eclipse(self.state),
+            _ => self.night.irradiance(self.state),
+        };
         if !self.is_globe() {
             return [irradiance, Spectrum::DARK, Spectrum::DARK, Spectrum::DARK];
         }
         let [blue, green, red] =
             [0, 1, 2].map(|band| irradiance.weighted(|nm| bands::weights(nm)[band]));
-        [red, green, blue, Spectrum::DARK]
+        [red, green, blue, self.night.earthlit_moon()]
     }
 
     /// The globe of the Moon; none where it is not drawn as one.
@@ -262,6 +266,9 @@ impl<'a> SeenBody<'a> {
             to_sun,
             distance: self.state.distance_km / MOON_RADIUS_KM,
             picture_px,
+            shadow: self.night.eclipse.moon.as_ref().map(|eclipsed| {
+                UmbraTable::of(&eclipsed.shadow, &eclipsed.place, &body_from_horizon)
+            }),
             ground: Arc::new(Ground::at_phase(Reflectance::Hapke, &ground, self.state.phase_angle)),
             shadows: Arc::new(shadows),
         })

@@ -21,6 +21,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::catalog::{MoonMap, MoonRelief};
+use crate::light::earth_shadow::{EarthShadow, ShadowedMoon};
 use crate::light::moon::hapke::Facets;
 use crate::light::moon::surface::PhaseCell;
 use crate::light::moon::{MoonSurface, Reflectance};
@@ -30,6 +31,9 @@ use crate::units::{Angle, MOON_RADIUS_KM};
 pub const EXTENT: f64 = 1.01;
 /// Colours of the surface: reflectances at 643, 566 and 415 nm; and what the Earth lights.
 pub const CHANNELS: usize = 4;
+/// Wavelengths of the colours, nanometres.
+const COLOURS_NM: [f64; 3] = [643.0, 566.0, 415.0];
+
 /// What the mesh of the globe is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Globe {
@@ -45,6 +49,40 @@ pub struct Globe {
     pub picture_px: u32,
     pub ground: Arc<Ground>,
     pub shadows: Arc<Shadows>,
+    /// The shadow of the Earth, in an eclipse.
+    pub shadow: Option<UmbraTable>,
+}
+
+/// The shadow of the Earth on the Moon.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UmbraTable {
+    /// Of the Sun and of the Earth from the Moon's centre, in the Moon's own axes and radii.
+    pub to_sun: DVec3,
+    pub to_earth: DVec3,
+    /// Angle between the two, seen from a point, at the last node.
+    pub rim: Angle,
+    /// What is left of the Sun's light at 643, 566 and 415 nm, from the axis to the rim in even steps, over
+    /// the most that is left anywhere on the Moon.
+    pub shares: Vec<[f64; 3]>,
+}
+
+impl UmbraTable {
+    const NODES: usize = 512;
+
+    pub fn of(shadow: &EarthShadow, place: &ShadowedMoon, body_from_horizon: &DMat3) -> UmbraTable {
+        let radii = |km: DVec3| *body_from_horizon * km / MOON_RADIUS_KM;
+        let [to_sun, to_earth] = place.to_sun_and_earth_km().map(radii);
+        let rim = place.distances.outer_rim();
+        let share = |offset: Angle| {
+            let light = shadow.light_at(offset);
+            COLOURS_NM.map(|nm| light.at_nm(nm))
+        };
+        let most = share(place.offset + place.disc_radius()).into_iter().fold(1e-9, f64::max);
+        let node = |node: usize| {
+            share(rim * (node as f64 / (UmbraTable::NODES - 1) as f64)).map(|share| share / most)
+        };
+        UmbraTable { to_sun, to_earth, rim, shares: (0..UmbraTable::NODES).map(node).collect() }
+    }
 }
 
 /// How the ground sends light back at one phase angle.
@@ -327,6 +365,7 @@ mod tests {
             picture_px,
             ground: Arc::clone(&ground),
             shadows: Arc::clone(&shadows),
+            shadow: None,
         };
         let triangles = |px| globe(px).mesh().map(|band| band.triangles()).iter().sum::<u32>();
         assert!(triangles(12) < 500 && (100_000..300_000).contains(&triangles(2000)));

@@ -6,7 +6,7 @@ use half::f16;
 
 use crate::catalog::{MoonMap, MoonRelief};
 use crate::light::moon::surface::PhaseCell;
-use crate::plan::globe::{EXTENT, Globe, Ground, Shadows};
+use crate::plan::globe::{EXTENT, Globe, Ground, Shadows, UmbraTable};
 use crate::units::MOON_RADIUS_KM;
 
 use super::gpu::Gpu;
@@ -74,6 +74,7 @@ impl GlobePass {
         let depth = texture("depth of the globe", DEPTH_FORMAT, wgpu::TextureUsages::empty());
         let uniform = storage(gpu, "globe", bytemuck::bytes_of(&GlobeUniform::of(globe)));
         let [once, often, facets] = ground_textures(gpu, &globe.ground);
+        let umbra = umbra_texture(gpu, globe.shadow.as_ref());
         let bands = globe.mesh().map(|band| {
             let buffer = storage(gpu, "band", bytemuck::bytes_of(&MeshBandUniform::of(&band)));
             let group = bind(
@@ -90,6 +91,7 @@ impl GlobePass {
                     wgpu::BindingResource::TextureView(&often),
                     wgpu::BindingResource::TextureView(&facets),
                     wgpu::BindingResource::Sampler(&self.across_facets),
+                    wgpu::BindingResource::TextureView(&umbra),
                 ],
             );
             let indices = lattice_indices(band.sectors, band.rings);
@@ -276,6 +278,20 @@ fn ground_textures(gpu: &Gpu, ground: &Ground) -> [wgpu::TextureView; 3] {
         texture("scattered often", ground.size, often),
         texture("facets", (Ground::NODES, Ground::NODES), facets),
     ]
+}
+
+fn umbra_texture(gpu: &Gpu, shadow: Option<&UmbraTable>) -> wgpu::TextureView {
+    let texels: Vec<u16> = match shadow {
+        Some(table) => {
+            let texel = |&[r, g, b]: &[f64; 3]| [r, g, b, 0.0].map(|v| f16::from_f64(v).to_bits());
+            table.shares.iter().flat_map(texel).collect()
+        }
+        // A binding cannot be empty; without an eclipse nothing reads it.
+        None => vec![0; 4],
+    };
+    let size = [texels.len() as u32 / 4, 1];
+    let format = wgpu::TextureFormat::Rgba16Float;
+    map_texture(gpu, "shadow of the Earth", size, format, bytemuck::cast_slice(&texels))
 }
 
 fn albedo_texture(gpu: &Gpu, albedo: &MoonMap, level: u32) -> wgpu::TextureView {

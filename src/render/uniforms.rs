@@ -78,6 +78,8 @@ pub struct GlobeUniform {
     pub first_shadow: f32,
     pub last_shadow: f32,
     pub darkness: [f32; 4],
+    pub sun: [f32; 4],
+    pub earth: [f32; 4],
 }
 
 /// `MeshBand` of `shaders/globe.wgsl`.
@@ -173,6 +175,11 @@ impl GlobeUniform {
             first_shadow: Shadows::FIRST.rad() as f32,
             last_shadow: Shadows::LAST.rad() as f32,
             darkness: darkness(&globe.ground),
+            sun: globe.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_sun, s.rim.rad())),
+            earth: globe
+                .shadow
+                .as_ref()
+                .map_or([0.0; 4], |s| with(s.to_earth, s.to_earth.length())),
         }
     }
 }
@@ -201,7 +208,6 @@ impl DiscUniform {
     pub fn of(disc: &Disc) -> Self {
         let shape = &disc.shape;
         let pixel = |p: [f64; 2]| p.map(|v| v as f32);
-        let with = |v: glam::DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
         let (law, map_width) = match &shape.law {
             SurfaceLaw::Sun { .. } => (0.0, 0),
             SurfaceLaw::Moon { map } => (1.0, map.width),
@@ -258,6 +264,10 @@ impl DiscBandUniform {
             }),
         }
     }
+}
+
+fn with(v: glam::DVec3, w: f64) -> [f32; 4] {
+    [v.x as f32, v.y as f32, v.z as f32, w as f32]
 }
 
 /// Columns of a 3 x 3 matrix, each padded to 16 bytes as WGSL wants them.
