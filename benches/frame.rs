@@ -11,7 +11,7 @@ use std::time::Instant as Clock;
 use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
-use nocturne::catalog::{Catalogs, MoonMap};
+use nocturne::catalog::{Catalogs, MoonMaps};
 use nocturne::ephemeris::Ephemeris;
 use nocturne::eye::Eye;
 use nocturne::frame::Dir;
@@ -43,13 +43,13 @@ const SLOW: usize = 5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let catalogs = Catalogs::locate(None)?;
-    let moon_map = catalogs.moon_map()?;
+    let moon_maps = catalogs.moon_maps()?;
     computations();
     println!("\nPlans, ms                          size   Night::of         lay  splats  discs");
     let mut plans = Vec::new();
     for size in SIZES {
         for (name, utc) in SKIES {
-            plans.push((name, plan(name, utc, size, &catalogs, &moon_map)?));
+            plans.push((name, plan(name, utc, size, &catalogs, &moon_maps)?));
         }
     }
     let renderer = match Renderer::new() {
@@ -128,7 +128,7 @@ fn plan(
     utc: &str,
     (width_px, height_px): (u32, u32),
     catalogs: &Catalogs,
-    moon_map: &MoonMap,
+    moon_maps: &MoonMaps,
 ) -> Result<FramePlan, Box<dyn Error>> {
     let setting = setting(utc, width_px, height_px)?;
     let layers = Layers::default();
@@ -144,7 +144,7 @@ fn plan(
     let night = light();
     let mut kept = KeptAir::new(Store::NONE);
     // The air is solved once; what follows is what a second frame takes.
-    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_map.clone()), &mut kept);
+    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_maps.clone()), &mut kept);
     let (plan, _) = lay()?;
     println!(
         "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",

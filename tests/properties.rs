@@ -1,12 +1,14 @@
 //! What holds for any input: inverse pairs, positions that are finite and move without a jump,
 //! light without nonsense.
 
+use std::sync::Arc;
+
 use nocturne::air::Atmosphere;
 use nocturne::air::aerosol::{Aerosol, AerosolProfile, PhaseLaw};
 use nocturne::air::refraction::Refraction;
 use nocturne::air::standard::standard_pressure_mbar;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
-use nocturne::catalog::{MoonMap, Star};
+use nocturne::catalog::{HapkeCell, MoonHapke, MoonMap, MoonMaps, MoonRelief, Star};
 use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::{Apparent, Dir, Horizon, Local, View};
@@ -350,9 +352,15 @@ fn planned((instant, place, camera, mut air, layers, stars): SmallScene) -> Fram
     let tolerance = camera.pixel_angle() * 0.1;
     let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance).unwrap();
     let night = Night::of(sky, stars, &air);
-    let map = MoonMap { width: 8, height: 4, reff: vec![[0.1, 0.12, 0.08]; 32] };
+    let (width, height) = (8, 4);
+    let cell = HapkeCell { w: 0.3, b: 0.25, c: 0.5, b_s0: 2.0, h_s: 0.07 };
+    let maps = MoonMaps {
+        albedo: Arc::new(MoonMap { width, height, reff: vec![[0.1, 0.12, 0.08]; 32] }),
+        relief: Arc::new(MoonRelief { width, height, elevation_m: vec![0; 32] }),
+        hapke: Arc::new(MoonHapke { width, height, cells: vec![[cell; 3]; 32] }),
+    };
     let setting = Setting { instant, place, camera, tolerance, sky: None };
-    lay(&setting, &layers, &night, || Ok(map)).unwrap().0
+    lay(&setting, &layers, &night, || Ok(maps)).unwrap().0
 }
 
 fn is_light(light: Xyzv) -> bool {
