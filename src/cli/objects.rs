@@ -45,6 +45,7 @@ enum KindArg {
     Sun,
     Moon,
     Planet,
+    Satellite,
     Star,
 }
 
@@ -54,6 +55,7 @@ impl KindArg {
             Kind::Body(Body::Sun) => KindArg::Sun,
             Kind::Body(Body::Moon) => KindArg::Moon,
             Kind::Body(_) => KindArg::Planet,
+            Kind::Satellite(_) => KindArg::Satellite,
             Kind::Star(_) => KindArg::Star,
         };
         self == kind
@@ -100,7 +102,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         }
         let b_v = match object.kind {
             Kind::Star(index) => format!("{:.2}", night.stars[index].b_v),
-            Kind::Body(_) => String::new(),
+            Kind::Body(_) | Kind::Satellite(_) => String::new(),
         };
         let (name, number) = (night.label(object), number(object, &night));
         let (known_as, v) = (designation(object, &night), object.magnitude.0);
@@ -125,13 +127,13 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
 fn number(object: &LitObject, night: &Night) -> String {
     match object.kind {
         Kind::Star(index) => format!("HR {}", night.stars[index].hr),
-        Kind::Body(_) => String::new(),
+        Kind::Body(_) | Kind::Satellite(_) => String::new(),
     }
 }
 
 fn designation(object: &LitObject, night: &Night) -> String {
     match object.kind {
         Kind::Star(index) => night.stars[index].designation.clone().unwrap_or_default(),
-        Kind::Body(_) => String::new(),
+        Kind::Body(_) | Kind::Satellite(_) => String::new(),
     }
 }

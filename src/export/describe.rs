@@ -54,7 +54,7 @@ pub struct DescribedCamera {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DescribedObject {
     pub name: String,
-    /// `sun`, `moon`, `planet` or `star`.
+    /// `sun`, `moon`, `planet`, `satellite` or `star`.
     pub kind: &'static str,
     /// Number in a catalogue, such as `HR 2491`.
     pub catalogue: Option<String>,
@@ -98,6 +98,7 @@ impl Description {
                 Kind::Body(Body::Sun) => ("sun", None),
                 Kind::Body(Body::Moon) => ("moon", None),
                 Kind::Body(_) => ("planet", None),
+                Kind::Satellite(_) => ("satellite", None),
                 Kind::Star(index) => ("star", Some(format!("HR {}", night.stars[index].hr))),
             };
             DescribedObject {

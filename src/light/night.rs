@@ -4,15 +4,16 @@ use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
 use crate::catalog::Star;
-use crate::ephemeris::Body;
+use crate::ephemeris::{Body, Galilean};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::{point_light, visible_light};
 use crate::light::moon::{self, MoonView};
 use crate::light::planets::{self, Planet, PlanetView};
+use crate::light::satellites;
 use crate::light::spectrum::Spectrum;
 use crate::light::star_light::StarLight;
 use crate::light::sun;
-use crate::sky::{BodyState, RingTilt, SkyState};
+use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState};
 use crate::units::{AU_KM, Angle, Illuminance, Magnitude, Xyzv};
 
 /// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
@@ -23,6 +24,8 @@ pub const STAR_ERROR_BOUND: Angle = Angle::from_arcsec(3.0);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
     Body(Body),
+    /// A great moon of Jupiter.
+    Satellite(Galilean),
     /// A star, by its place in [`Night::stars`].
     Star(usize),
 }
@@ -55,7 +58,7 @@ pub struct Night {
     pub refraction: Refraction,
     /// Apparent altitude of the horizon of the ground around.
     pub horizon: Angle,
-    /// Sun, Moon, planets, then the stars in the order of the catalogue.
+    /// Sun, Moon, planets, moons of Jupiter, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,
     pub stars: Vec<Star>,
 }
@@ -88,6 +91,19 @@ impl Night {
         };
         let mut objects: Vec<LitObject> =
             bodies(&sky).map(|state| body(state, irradiance(state, &sky))).collect();
+        objects.extend(sky.satellites.iter().map(|state: &SatelliteState| {
+            let light = satellites::light(state);
+            let apparent = refraction.apparent_from_horizon(state.dir);
+            LitObject {
+                kind: Kind::Satellite(state.satellite),
+                dir: state.dir,
+                apparent,
+                error_bound: state.error_bound,
+                magnitude: light.magnitude,
+                outside: light.magnitude.illuminance(),
+                ground: point_light(apparent.altitude(), &light.spectrum, &sight, &refraction),
+            }
+        }));
 
         let starlight = StarLight::new(air, height_m);
         let directions = sky.stars(&stars);
@@ -132,6 +148,7 @@ impl Night {
     pub fn label(&self, object: &LitObject) -> String {
         match object.kind {
             Kind::Body(body) => body.name().to_owned(),
+            Kind::Satellite(satellite) => satellite.name().to_owned(),
             Kind::Star(index) => {
                 let star = &self.stars[index];
                 let name = star.name.as_ref().or(star.designation.as_ref());
@@ -145,6 +162,7 @@ impl Night {
         let wanted = folded(name);
         self.objects.iter().find(|object| match object.kind {
             Kind::Body(body) => folded(body.name()) == wanted,
+            Kind::Satellite(satellite) => folded(satellite.name()) == wanted,
             Kind::Star(index) => {
                 let star = &self.stars[index];
                 let names = star.name.iter().chain(&star.designation).map(|name| folded(name));
