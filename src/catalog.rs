@@ -20,6 +20,7 @@ mod csv;
 mod hipparcos;
 pub mod layered;
 pub mod moon;
+mod moon_features;
 pub mod pack;
 pub mod places;
 mod seal;
@@ -27,12 +28,14 @@ pub mod stars;
 
 pub use hipparcos::Astrometry;
 pub use moon::MoonMap;
+pub use moon_features::MoonFeature;
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
 const ASTROMETRY_FILE: &str = "hipparcos.csv";
 const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
+const MOON_FEATURES_FILE: &str = "moon_features.csv";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
 /// A star of the Yale Bright Star Catalogue, 5th edition (Hoffleit & Warren 1991).
@@ -147,6 +150,14 @@ impl Catalogs {
     /// The reflectance of the Moon.
     pub fn moon_map(&self) -> Result<MoonMap, CatalogError> {
         self.read(MOON_FILE, |bytes| moon::decode(&bytes))
+    }
+
+    /// The best-known places on the Moon.
+    pub fn moon_features(&self) -> Result<Vec<MoonFeature>, CatalogError> {
+        self.read(MOON_FEATURES_FILE, |bytes| {
+            let text = std::str::from_utf8(&bytes).map_err(|_| "is not UTF-8")?;
+            moon_features::parse(text).map_err(|(line, what)| format!("line {line}: {what}"))
+        })
     }
 
     /// The payloads of the first `depth` layers of a layered file; the rest of it is not read.

@@ -3,7 +3,7 @@
 use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
-use crate::catalog::Star;
+use crate::catalog::{MoonFeature, Star};
 use crate::ephemeris::{Body, Galilean};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::{point_light, visible_light};
@@ -13,7 +13,7 @@ use crate::light::satellites;
 use crate::light::spectrum::Spectrum;
 use crate::light::star_light::StarLight;
 use crate::light::sun;
-use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState};
+use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState, SurfacePoint};
 use crate::units::{AU_KM, Angle, Illuminance, Magnitude, Xyzv};
 
 /// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
@@ -61,6 +61,8 @@ pub struct Night {
     /// Sun, Moon, planets, moons of Jupiter, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,
     pub stars: Vec<Star>,
+    /// Places on the Moon that have a name, if somebody [gave](Night::with_moon_features) them.
+    pub moon_features: Vec<MoonFeature>,
 }
 
 impl Night {
@@ -126,7 +128,33 @@ impl Night {
                 ground,
             }
         }));
-        Night { sky, air: air.clone(), refraction, horizon, objects, stars }
+        Night {
+            sky,
+            air: air.clone(),
+            refraction,
+            horizon,
+            objects,
+            stars,
+            moon_features: Vec::new(),
+        }
+    }
+
+    /// The same night with the names of places on the Moon.
+    pub fn with_moon_features(self, moon_features: Vec<MoonFeature>) -> Night {
+        Night { moon_features, ..self }
+    }
+
+    /// A place on the Moon by name: `Tycho`, or `Moon/Copernicus` where a star is called the same.
+    pub fn moon_feature(&self, name: &str) -> Option<&MoonFeature> {
+        let wanted = folded(name);
+        let wanted = wanted.strip_prefix("moon/").unwrap_or(&wanted);
+        self.moon_features.iter().find(|feature| folded(&feature.name) == wanted)
+    }
+
+    /// How a place on the Moon stands in the sky, and where it is seen.
+    pub fn on_moon(&self, feature: &MoonFeature) -> (SurfacePoint, Dir<Apparent>) {
+        let point = self.sky.moon.surface_point(feature.longitude, feature.latitude);
+        (point, self.refraction.apparent_from_horizon(point.dir))
     }
 
     /// Where the Sun, the Moon and the planets stand.
