@@ -21,6 +21,7 @@ mod csv;
 mod hipparcos;
 pub mod layered;
 pub mod moon;
+mod moon_features;
 pub mod pack;
 pub mod places;
 mod rice;
@@ -29,6 +30,7 @@ pub mod stars;
 
 pub use hipparcos::Astrometry;
 pub use moon::{HapkeCell, MoonHapke, MoonMap, MoonRelief};
+pub use moon_features::MoonFeature;
 pub use seal::sha256_hex;
 
 const STARS_FILE: &str = "stars.bin";
@@ -37,6 +39,7 @@ const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
 const RELIEF_FILE: &str = "moon_relief.bin";
 const HAPKE_FILE: &str = "moon_hapke.bin";
+const MOON_FEATURES_FILE: &str = "moon_features.csv";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
 /// Maps of the Moon, shared by the frames that show it.
@@ -178,6 +181,14 @@ impl Catalogs {
     /// How the ground of the Moon sends light back.
     pub fn moon_hapke(&self) -> Result<MoonHapke, CatalogError> {
         self.read(HAPKE_FILE, |bytes| moon::hapke::decode(&bytes))
+    }
+
+    /// The best-known places on the Moon.
+    pub fn moon_features(&self) -> Result<Vec<MoonFeature>, CatalogError> {
+        self.read(MOON_FEATURES_FILE, |bytes| {
+            let text = std::str::from_utf8(&bytes).map_err(|_| "is not UTF-8")?;
+            moon_features::parse(text).map_err(|(line, what)| format!("line {line}: {what}"))
+        })
     }
 
     /// The payloads of the first `depth` layers of a layered file; the rest of it is not read.

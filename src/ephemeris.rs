@@ -56,6 +56,7 @@ pub mod comparison;
 pub mod de431;
 pub mod de440;
 mod deep_moon;
+mod galilean;
 pub mod kernel;
 mod moon;
 pub mod moon_orientation;
@@ -72,6 +73,7 @@ mod tables;
 mod tier;
 
 pub use body::{Body, UnknownBody};
+pub use galilean::{Galilean, JUPITER_EQUATORIAL_RADIUS_KM, JUPITER_POLAR_RADIUS_KM, jupiter_pole};
 pub use observation::{Observation, Seen};
 pub use planets::saturn_pole;
 pub use resampled::Depth;

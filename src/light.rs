@@ -14,6 +14,8 @@ pub mod moon;
 pub mod night;
 pub mod planets;
 pub mod point_light;
+pub mod satellites;
+pub mod saturn_rings;
 pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;

@@ -1,17 +1,23 @@
 //! Where everything stands in the sky of one place at one instant: directions, distances, phases
 //! and sizes. Not how bright, and not refracted.
 
+mod moon_surface;
+mod satellites;
+
 use crate::catalog::Star;
 use crate::ephemeris::apparent::{ApparentPlace, Observer};
 use crate::ephemeris::moon_orientation::Libration;
 use crate::ephemeris::stars::StarReduction;
 use crate::ephemeris::{
-    Body, Ephemeris, EphemerisError, Observation, Seen, Tier, Tolerance, saturn_pole,
+    Body, Ephemeris, EphemerisError, Galilean, Observation, Seen, Tier, Tolerance, saturn_pole,
 };
 use crate::frame::{Dir, Horizon, Icrs, MoonFixed, Rot};
 use crate::place::Place;
 use crate::time::Instant;
 use crate::units::Angle;
+
+pub use moon_surface::SurfacePoint;
+pub use satellites::SatelliteState;
 
 /// The sky of one place at one instant, geometric: what stands there without air.
 #[derive(Debug, Clone)]
@@ -26,6 +32,8 @@ pub struct SkyState {
     pub moon: MoonState,
     /// Mercury to Pluto, outwards.
     pub planets: Vec<BodyState>,
+    /// The great moons of Jupiter, outwards.
+    pub satellites: Vec<SatelliteState>,
     stars: StarReduction,
 }
 
@@ -104,6 +112,7 @@ impl SkyState {
             .into_iter()
             .map(|planet| seen(planet).map(|(state, _)| state))
             .collect::<Result<Vec<_>, _>>()?;
+        let satellites = satellites::of_jupiter(&mut observation)?;
         let stars = observation.stars()?;
         Ok(SkyState {
             instant: *instant,
@@ -113,6 +122,7 @@ impl SkyState {
             sun,
             moon: moon_state(moon, &moon_place, &observation),
             planets,
+            satellites,
             stars,
         })
     }
@@ -120,6 +130,11 @@ impl SkyState {
     /// Where the stars stand: proper motion, parallax, aberration; no air.
     pub fn stars(&self, stars: &[Star]) -> Vec<Dir<Horizon>> {
         self.stars.horizon_all(stars)
+    }
+
+    /// The state of a moon of Jupiter.
+    pub fn satellite(&self, satellite: Galilean) -> Option<&SatelliteState> {
+        self.satellites.iter().find(|state| state.satellite == satellite)
     }
 
     /// The state of a body, whichever it is.

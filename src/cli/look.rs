@@ -45,19 +45,23 @@ impl std::str::FromStr for Look {
 
 /// The direction of an object that stands above the horizon.
 pub fn towards(name: &str, night: &Night) -> Result<Dir<Apparent>, CliError> {
-    let object = night.find(name).ok_or_else(|| {
-        CliError::Usage(format!(
-            "--look: '{name}' is neither a direction (N, SSW, 212, zenith) nor the Sun, the Moon, a planet or a star of the catalogue; `nocturne objects` lists them"
-        ))
-    })?;
-    let altitude_deg = object.apparent.altitude().deg();
+    let (apparent, label) = match (night.find(name), night.moon_feature(name)) {
+        (Some(object), _) => (object.apparent, night.label(object)),
+        (None, Some(feature)) => (night.on_moon(feature).1, feature.name.clone()),
+        (None, None) => {
+            return Err(CliError::Usage(format!(
+                "--look: '{name}' is neither a direction (N, SSW, 212, zenith) nor the Sun, the Moon, a place on it, a planet or a star of the catalogue; `nocturne objects` lists them"
+            )));
+        }
+    };
+    let altitude_deg = apparent.altitude().deg();
     if altitude_deg < 0.0 {
         return Err(CliError::Usage(format!(
             "--look: {} is below the horizon then and there, at altitude {altitude_deg:.1}°; choose another instant or direction",
-            night.label(object)
+            label
         )));
     }
-    Ok(object.apparent)
+    Ok(apparent)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::{Args, ValueEnum};
 
 use crate::air::Atmosphere;
-use crate::catalog::Catalogs;
+use crate::catalog::{Catalogs, MoonFeature};
 use crate::ephemeris::Body;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::place::Place;
@@ -45,7 +45,10 @@ enum KindArg {
     Sun,
     Moon,
     Planet,
+    Satellite,
     Star,
+    /// Places on the Moon; name one
+    MoonFeature,
 }
 
 impl KindArg {
@@ -54,6 +57,7 @@ impl KindArg {
             Kind::Body(Body::Sun) => KindArg::Sun,
             Kind::Body(Body::Moon) => KindArg::Moon,
             Kind::Body(_) => KindArg::Planet,
+            Kind::Satellite(_) => KindArg::Satellite,
             Kind::Star(_) => KindArg::Star,
         };
         self == kind
@@ -79,7 +83,14 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         let names = [night.label(object), number(object, &night), designation(object, &night)];
         names.iter().any(|name| name.to_lowercase().contains(&query))
     };
-    if !night.objects.iter().any(is_called) {
+    let features: Vec<&MoonFeature> = match query.is_empty() {
+        true => Vec::new(),
+        false => {
+            let is_named = |feature: &&MoonFeature| feature.name.to_lowercase().contains(&query);
+            night.moon_features.iter().filter(is_named).collect()
+        }
+    };
+    if features.is_empty() && !night.objects.iter().any(is_called) {
         return Err(CliError::Usage(format!(
             "nothing called '{}'; `nocturne objects` without a name lists all",
             args.query
@@ -100,7 +111,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         }
         let b_v = match object.kind {
             Kind::Star(index) => format!("{:.2}", night.stars[index].b_v),
-            Kind::Body(_) => String::new(),
+            Kind::Body(_) | Kind::Satellite(_) => String::new(),
         };
         let (name, number) = (night.label(object), number(object, &night));
         let (known_as, v) = (designation(object, &night), object.magnitude.0);
@@ -119,19 +130,51 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         }
         writeln!(out)?;
     }
+    if args.kind.is_some_and(|kind| kind != KindArg::MoonFeature) || args.magnitude_limit.is_some()
+    {
+        return Ok(());
+    }
+    for feature in features {
+        let (point, apparent) = night.on_moon(feature);
+        if args.up && apparent.altitude() < Angle::ZERO {
+            continue;
+        }
+        let (longitude_deg, latitude_deg) = (feature.longitude.deg(), feature.latitude.deg());
+        let on_moon = format!(
+            "{:.1}{} {:.1}{}",
+            longitude_deg.abs(),
+            if longitude_deg < 0.0 { 'W' } else { 'E' },
+            latitude_deg.abs(),
+            if latitude_deg < 0.0 { 'S' } else { 'N' }
+        );
+        write!(out, "{:<26} {:<17} {:>13}", feature.name, on_moon, feature.kind)?;
+        if is_somewhere {
+            let (azimuth, altitude) = (point.dir.azimuth(), point.dir.altitude());
+            let seen_at = apparent.altitude();
+            write!(
+                out,
+                " {:>9.4} {:>+9.4} {:>+9.4} {}",
+                azimuth.deg(),
+                altitude.deg(),
+                seen_at.deg(),
+                wind(azimuth)
+            )?;
+        }
+        writeln!(out)?;
+    }
     Ok(())
 }
 
 fn number(object: &LitObject, night: &Night) -> String {
     match object.kind {
         Kind::Star(index) => format!("HR {}", night.stars[index].hr),
-        Kind::Body(_) => String::new(),
+        Kind::Body(_) | Kind::Satellite(_) => String::new(),
     }
 }
 
 fn designation(object: &LitObject, night: &Night) -> String {
     match object.kind {
         Kind::Star(index) => night.stars[index].designation.clone().unwrap_or_default(),
-        Kind::Body(_) => String::new(),
+        Kind::Body(_) | Kind::Satellite(_) => String::new(),
     }
 }

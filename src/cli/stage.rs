@@ -62,5 +62,6 @@ pub fn night(
 ) -> Result<Night, CliError> {
     let ephemeris = Ephemeris::load(catalogs, tolerance)?;
     let sky = SkyState::at(&ephemeris, instant, place, tolerance)?;
-    Ok(Night::of(sky, catalogs.stars()?, air))
+    let features = catalogs.moon_features()?;
+    Ok(Night::of(sky, catalogs.stars()?, air).with_moon_features(features))
 }

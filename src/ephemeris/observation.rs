@@ -1,12 +1,12 @@
 //! One instant at one place: what all bodies share, reckoned once.
 
-use super::apparent::{ApparentPlace, Observer};
+use super::apparent::{ApparentPlace, Observer, aberrate, deflect};
 use super::body::Body;
 use super::moon_orientation::MoonPhysical;
 use super::stars::StarReduction;
 use super::tables::{EarthState, Ephemeris};
 use super::tier::{EphemerisError, Tier, Tolerance};
-use crate::frame::{Icrs, MoonFixed, Rot};
+use crate::frame::{Dir, Icrs, MoonFixed, Pos, Rot};
 use crate::place::Place;
 use crate::time::Instant;
 use crate::units::{Angle, LIGHT_SPEED_KM_S};
@@ -57,6 +57,26 @@ impl<'a> Observation<'a> {
         let earth = self.earth(tier)?;
         let place = ApparentPlace::of(self.ephemeris, body, tier, &self.observer, &earth)?;
         Ok(Seen { place, tier, error_bound })
+    }
+
+    /// Where a companion of a planet is seen, and how far it stands: `offset` is its place from the
+    /// planet when its light left it, and `planet` where that is seen.
+    ///
+    /// # Errors
+    ///
+    /// A date that no theory of the Earth serves.
+    pub fn beside(
+        &mut self,
+        planet: &Seen,
+        offset: Pos<Icrs>,
+    ) -> Result<(Dir<Icrs>, Pos<Icrs>), EphemerisError> {
+        let earth = self.earth(planet.tier)?;
+        let from_observer = planet.place.from_observer + offset;
+        let source = (planet.place.from_sun + offset).dir();
+        let observer_from_sun = (earth.position - earth.sun).km() + self.observer.position.km();
+        let bent = deflect(from_observer.dir(), source, observer_from_sun);
+        let dir = aberrate(bent, earth.velocity_km_s + self.observer.velocity_km_s);
+        Ok((dir, from_observer))
     }
 
     /// The axes of the Moon's map when the light left it that arrives from there.

@@ -5,6 +5,7 @@ use std::io;
 
 use serde::Serialize;
 
+use crate::catalog::MoonFeature;
 use crate::ephemeris::Body;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::scene::Setting;
@@ -25,6 +26,9 @@ pub struct Description {
     pub place: DescribedPlace,
     pub camera: DescribedCamera,
     pub objects: Vec<DescribedObject>,
+    /// Named places on the Moon, where its disc is large; absent else.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub moon_features: Vec<DescribedFeature>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -54,7 +58,7 @@ pub struct DescribedCamera {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DescribedObject {
     pub name: String,
-    /// `sun`, `moon`, `planet` or `star`.
+    /// `sun`, `moon`, `planet`, `satellite` or `star`.
     pub kind: &'static str,
     /// Number in a catalogue, such as `HR 2491`.
     pub catalogue: Option<String>,
@@ -79,6 +83,76 @@ pub struct DescribedObject {
     pub pixel_solid_angle_sr: Option<f64>,
 }
 
+/// A named place on the Moon.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DescribedFeature {
+    pub name: String,
+    /// `moon feature`.
+    pub kind: &'static str,
+    /// `crater`, `sea`, `mountain`, `valley`, `scarp`, `swirl` or `landing site`.
+    pub feature: String,
+    /// Selenographic, east positive.
+    pub longitude_deg: f64,
+    pub latitude_deg: f64,
+    /// Zero for a point.
+    pub diameter_km: f64,
+    /// As of an object; none when out of view or on the far side.
+    pub x_px: Option<f64>,
+    pub y_px: Option<f64>,
+    pub azimuth_deg: f64,
+    pub altitude_deg: f64,
+    pub apparent_altitude_deg: f64,
+    /// Whether it faces the observer.
+    pub is_on_near_side: bool,
+    /// Whether the centre of the Sun is above its level horizon.
+    pub is_lit: bool,
+    /// Height of the Sun over it.
+    pub sun_altitude_deg: f64,
+}
+
+/// A disc of the Moon smaller than this has no places to name, pixels.
+const MOON_FEATURES_PX: f64 = 40.0;
+
+/// The places on the Moon, if its disc is large enough on the picture.
+fn described_features(setting: &Setting, night: &Night) -> Vec<DescribedFeature> {
+    let camera = &setting.camera;
+    let moon = &night.sky.moon.state;
+    let centre = night.refraction.apparent_from_horizon(moon.dir);
+    let Some(pixel_sr) =
+        camera.pixel_from_apparent(centre).map(|pixel| camera.pixel_solid_angle_sr(pixel))
+    else {
+        return Vec::new();
+    };
+    if 2.0 * moon.angular_radius.rad() < MOON_FEATURES_PX * pixel_sr.sqrt() {
+        return Vec::new();
+    }
+    let described = |feature: &MoonFeature| {
+        let (point, apparent) = night.on_moon(feature);
+        let is_on_near_side = point.observer_altitude > Angle::ZERO;
+        let pixel = camera
+            .pixel_from_apparent(apparent)
+            .filter(|_| is_on_near_side && apparent.altitude() >= night.horizon)
+            .filter(|&pixel| camera.contains(pixel));
+        DescribedFeature {
+            name: feature.name.clone(),
+            kind: "moon feature",
+            feature: feature.kind.clone(),
+            longitude_deg: as_written(feature.longitude),
+            latitude_deg: as_written(feature.latitude),
+            diameter_km: feature.diameter_km,
+            x_px: pixel.map(|[x, _]| x),
+            y_px: pixel.map(|[_, y]| y),
+            azimuth_deg: point.dir.azimuth().deg(),
+            altitude_deg: point.dir.altitude().deg(),
+            apparent_altitude_deg: apparent.altitude().deg(),
+            is_on_near_side,
+            is_lit: point.sun_altitude > Angle::ZERO,
+            sun_altitude_deg: point.sun_altitude.deg(),
+        }
+    };
+    night.moon_features.iter().map(described).collect()
+}
+
 /// Degrees of an angle that somebody wrote, without the rounding of radians: 30, not 29.999...96.
 fn as_written(angle: Angle) -> f64 {
     const DECIMALS: f64 = 1e11;
@@ -98,6 +172,7 @@ impl Description {
                 Kind::Body(Body::Sun) => ("sun", None),
                 Kind::Body(Body::Moon) => ("moon", None),
                 Kind::Body(_) => ("planet", None),
+                Kind::Satellite(_) => ("satellite", None),
                 Kind::Star(index) => ("star", Some(format!("HR {}", night.stars[index].hr))),
             };
             DescribedObject {
@@ -139,6 +214,7 @@ impl Description {
                 focal_px: camera.focal_px(),
             },
             objects: night.objects.iter().map(described).collect(),
+            moon_features: described_features(setting, night),
         }
     }
 

@@ -5,19 +5,20 @@ use std::sync::Arc;
 use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
-use crate::catalog::Star;
-use crate::ephemeris::Body;
+use crate::catalog::{MoonFeature, Star};
+use crate::ephemeris::{Body, Galilean};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::{point_light, visible_light};
 use crate::light::earth_shadow::{Danjon, EarthShadow, ShadowedMoon};
 use crate::light::earthshine::{self, EarthView};
 use crate::light::moon::{self, MoonView};
 use crate::light::planets::{self, Planet, PlanetView};
+use crate::light::satellites;
 use crate::light::solar_eclipse::CoveredSun;
 use crate::light::spectrum::{Spectrum, Transmittance};
 use crate::light::star_light::StarLight;
 use crate::light::sun;
-use crate::sky::{BodyState, RingTilt, SkyState};
+use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState, SurfacePoint};
 use crate::units::{AU_KM, Angle, Illuminance, Magnitude, Xyzv};
 
 /// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
@@ -28,6 +29,8 @@ pub const STAR_ERROR_BOUND: Angle = Angle::from_arcsec(3.0);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
     Body(Body),
+    /// A great moon of Jupiter.
+    Satellite(Galilean),
     /// A star, by its place in [`Night::stars`].
     Star(usize),
 }
@@ -60,9 +63,11 @@ pub struct Night {
     pub refraction: Refraction,
     /// Apparent altitude of the horizon of the ground around.
     pub horizon: Angle,
-    /// Sun, Moon, planets, then the stars in the order of the catalogue.
+    /// Sun, Moon, planets, moons of Jupiter, then the stars in the order of the catalogue.
     pub objects: Vec<LitObject>,
     pub stars: Vec<Star>,
+    /// Places on the Moon that have a name, if somebody [gave](Night::with_moon_features) them.
+    pub moon_features: Vec<MoonFeature>,
     /// What an eclipse takes from the Sun and the Moon.
     pub eclipse: Eclipsed,
 }
@@ -134,6 +139,19 @@ impl Night {
         };
         let mut objects: Vec<LitObject> =
             bodies(&sky).map(|state| body(state, irradiance(state, &sky, &eclipse))).collect();
+        objects.extend(sky.satellites.iter().map(|state: &SatelliteState| {
+            let light = satellites::light(state);
+            let apparent = refraction.apparent_from_horizon(state.dir);
+            LitObject {
+                kind: Kind::Satellite(state.satellite),
+                dir: state.dir,
+                apparent,
+                error_bound: state.error_bound,
+                magnitude: light.magnitude,
+                outside: light.magnitude.illuminance(),
+                ground: point_light(apparent.altitude(), &light.spectrum, &sight, &refraction),
+            }
+        }));
 
         let starlight = StarLight::new(air, height_m);
         let directions = sky.stars(&stars);
@@ -156,7 +174,34 @@ impl Night {
                 ground,
             }
         }));
-        Night { sky, air: air.clone(), refraction, horizon, objects, stars, eclipse }
+        Night {
+            sky,
+            air: air.clone(),
+            refraction,
+            horizon,
+            objects,
+            stars,
+            eclipse,
+            moon_features: Vec::new(),
+        }
+    }
+
+    /// The same night with the names of places on the Moon.
+    pub fn with_moon_features(self, moon_features: Vec<MoonFeature>) -> Night {
+        Night { moon_features, ..self }
+    }
+
+    /// A place on the Moon by name: `Tycho`, or `Moon/Copernicus` where a star is called the same.
+    pub fn moon_feature(&self, name: &str) -> Option<&MoonFeature> {
+        let wanted = folded(name);
+        let wanted = wanted.strip_prefix("moon/").unwrap_or(&wanted);
+        self.moon_features.iter().find(|feature| folded(&feature.name) == wanted)
+    }
+
+    /// How a place on the Moon stands in the sky, and where it is seen.
+    pub fn on_moon(&self, feature: &MoonFeature) -> (SurfacePoint, Dir<Apparent>) {
+        let point = self.sky.moon.surface_point(feature.longitude, feature.latitude);
+        (point, self.refraction.apparent_from_horizon(point.dir))
     }
 
     /// Where the Sun, the Moon and the planets stand.
@@ -193,6 +238,7 @@ impl Night {
     pub fn label(&self, object: &LitObject) -> String {
         match object.kind {
             Kind::Body(body) => body.name().to_owned(),
+            Kind::Satellite(satellite) => satellite.name().to_owned(),
             Kind::Star(index) => {
                 let star = &self.stars[index];
                 let name = star.name.as_ref().or(star.designation.as_ref());
@@ -206,6 +252,7 @@ impl Night {
         let wanted = folded(name);
         self.objects.iter().find(|object| match object.kind {
             Kind::Body(body) => folded(body.name()) == wanted,
+            Kind::Satellite(satellite) => folded(satellite.name()) == wanted,
             Kind::Star(index) => {
                 let star = &self.stars[index];
                 let names = star.name.iter().chain(&star.designation).map(|name| folded(name));

@@ -8,9 +8,9 @@
 //! of the paper the answer goes on as gracefully as it can and says so in
 //! [`PlanetMagnitude::extrapolated`].
 //!
-//! From memory, not compared with the publication: the ranges of validity, some equation numbers, the
-//! source of the colours, and the phase law of Pluto. The magnitudes themselves are tested against
-//! the authors' own values.
+//! From memory, not compared with the publication: some equation numbers, the source of the colours,
+//! and the phase law of Pluto. The magnitudes are tested against the authors' own values and, over
+//! the whole range of each formula, against Skyfield, which follows the authors' program.
 //!
 //! Colours: B-V of each planet (Cox 2000, *Allen's Astrophysical Quantities*, table 12.8); the
 //! spectrum is sunlight tilted by a power of the wavelength until it has that B-V. Bands of methane
@@ -96,7 +96,7 @@ pub fn b_v(planet: Planet) -> f64 {
 }
 
 /// Sunlight, at one astronomical unit, reddened by a power of the wavelength to a given B-V.
-fn tilted_sunlight(b_v: f64) -> Spectrum {
+pub(super) fn tilted_sunlight(b_v: f64) -> Spectrum {
     let power = tilt(b_v);
     sun::irradiance_1au().weighted(|nm| (nm / V_NM).powf(power))
 }

@@ -34,6 +34,10 @@ const TOO_FAINT: &str = "fainter than the magnitude limit";
 const OUTSHONE: &str = "under 1/10 000 of the sky behind it";
 const HIDDEN: &str = "behind the Moon or the Sun";
 
+const BEHIND_JUPITER: &str = "behind Jupiter";
+/// Its disc is about as bright as theirs.
+const BEFORE_JUPITER: &str = "before the disc of Jupiter";
+
 /// Makes the plan of a frame and the ledger of what is in it. The Moon's maps are asked for only if
 /// the Moon shows a disc.
 pub fn lay(
@@ -151,6 +155,7 @@ fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
         Kind::Body(Body::Sun) => ("Sun", layers.sun),
         Kind::Body(Body::Moon) => ("Moon", layers.moon),
         Kind::Body(_) => ("planets", layers.planets),
+        Kind::Satellite(_) => ("moons of Jupiter", layers.planets),
         Kind::Star(_) => ("stars", layers.stars),
     }
 }
@@ -158,7 +163,7 @@ fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
 fn state_of<'n>(object: &LitObject, night: &'n Night) -> Option<&'n BodyState> {
     match object.kind {
         Kind::Body(body) => night.sky.body(body),
-        Kind::Star(_) => None,
+        Kind::Satellite(_) | Kind::Star(_) => None,
     }
 }
 
@@ -190,7 +195,7 @@ fn visible(
     let pixel = match object.kind {
         // The disc of a planet may reach into the picture when its centre does not.
         Kind::Body(_) => camera.pixel_from_apparent(object.apparent),
-        Kind::Star(_) => repeats_px(camera, object.apparent).next(),
+        Kind::Satellite(_) | Kind::Star(_) => repeats_px(camera, object.apparent).next(),
     };
     let Some(pixel) = pixel else { return Err(OUT_OF_VIEW) };
     let peak = object.ground.y * SPLAT_PEAK / camera.pixel_solid_angle_sr(pixel);
@@ -200,7 +205,14 @@ fn visible(
     if night.sky.sun.covers(object.dir) || night.sky.moon.state.covers(object.dir) {
         return Err(HIDDEN);
     }
-    Ok(())
+    match object.kind {
+        Kind::Satellite(moon) => match night.sky.satellite(moon) {
+            Some(state) if state.share_seen <= 0.0 => Err(BEHIND_JUPITER),
+            Some(state) if state.is_before_jupiter => Err(BEFORE_JUPITER),
+            _ => Ok(()),
+        },
+        _ => Ok(()),
+    }
 }
 
 /// What became of a body on the picture.
