@@ -17,7 +17,7 @@ use nocturne::image::Image;
 use nocturne::light::night::Night;
 use nocturne::plan::lay::lay;
 use nocturne::render::Renderer;
-use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, ScenePlace};
+use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 use nocturne::sky::{BodyState, SkyState};
 use nocturne::units::Angle;
 
@@ -129,6 +129,7 @@ impl Studio {
             layers: Layers::default(),
             air: self.air.clone(),
             sky: None,
+            moon: SceneMoon::default(),
             eye: Eye::default(),
             marks: Marks { horizon: false, cardinal_points: false },
         }

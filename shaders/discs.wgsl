@@ -27,7 +27,8 @@ struct Disc {
     // observer, in z; in w the chord of its angular radius.
     occluder: vec4f,
     // Samples in a pixel inside the disc and turn of their lattice; the same near an edge. Of a globe, in
-    // x, the edge of a tile in pixels, and in y the columns of tiles.
+    // x, the edge of a tile in pixels, in y the columns of tiles, in z how many times finer its picture is
+    // than the frame.
     samples: vec4u,
     // Nodes in a radian of apparent altitude.
     per_step: f32,
@@ -311,16 +312,31 @@ fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band
     return Seen(position, point, sight.place, lights[0], lights[1], lights[2], lights[3]);
 }
 
+// Given a point of the disc in radii, what the picture of the globe shows there.
+fn globe_at(at: vec2f) -> vec4f {
+    let flipped = vec2f(at.x, -at.y) / disc.centre.w;
+    let light = textureSampleLevel(globe, across_globe, 0.5 + 0.5 * flipped, 0.0);
+    return select(light, vec4f(0.0), max(abs(flipped.x), abs(flipped.y)) > 1.0);
+}
+
 @fragment
 fn globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
     let width = max(fwidth(seen.place), 1e-6);
-    let flipped = vec2f(seen.at.x, -seen.at.y) / disc.centre.w;
-    let light = textureSampleLevel(globe, across_globe, 0.5 + 0.5 * flipped, 0.0);
+    let right = dpdx(seen.at);
+    let down = dpdy(seen.at);
     // The ground stands before what lies below the first node.
     let over_ground = clamp(0.5 + seen.place / width, 0.0, 1.0);
-    if max(abs(flipped.x), abs(flipped.y)) > 1.0 || over_ground == 0.0 {
+    if over_ground == 0.0 || length(seen.at) > disc.centre.w + length(right) + length(down) {
         return vec4f(0.0);
     }
+    // As many samples along a pixel as the picture has pixels there.
+    let count = disc.samples.z;
+    var sum = vec4f(0.0);
+    for (var k = 0u; k < count * count; k++) {
+        let off = (vec2f(vec2u(k % count, k / count)) + 0.5) / f32(count) - 0.5;
+        sum += globe_at(seen.at + right * off.x + down * off.y);
+    }
+    let light = sum / f32(count * count);
     let share = select(light / globe_mean, vec4f(0.0), globe_mean <= vec4f(0.0)) * over_ground;
     return seen.red * share.x + seen.green * share.y + seen.blue * share.z + seen.earthlit * share.w;
 }

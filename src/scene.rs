@@ -9,6 +9,8 @@ use crate::air::classic::{ClassicSky, ClassicSkyError};
 use crate::air::{AirError, Atmosphere};
 use crate::camera::{Camera, CameraError, Projection};
 use crate::eye::Eye;
+use crate::light::earth_shadow::Danjon;
+use crate::light::moon::Reflectance;
 use crate::place::{Place, PlaceError};
 use crate::time::{self, Instant, TimeError};
 use crate::units::Angle;
@@ -63,6 +65,8 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sky: Option<ClassicSky>,
     #[serde(default)]
+    pub moon: SceneMoon,
+    #[serde(default)]
     pub air: Atmosphere,
     #[serde(default)]
     pub eye: Eye,
@@ -102,6 +106,16 @@ pub struct SceneCamera {
     pub projection: Projection,
     pub width_px: u32,
     pub height_px: u32,
+}
+
+/// How the Moon is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SceneMoon {
+    /// How its ground sends light back.
+    pub reflectance: Reflectance,
+    /// How dark its eclipses are: Danjon's number, 0 (very dark) to 4 (bright orange).
+    pub danjon: Danjon,
 }
 
 /// What is drawn.
@@ -158,6 +172,8 @@ pub struct Setting {
     pub tolerance: Angle,
     /// A classic model of the sky in place of the air solved.
     pub sky: Option<ClassicSky>,
+    /// How the ground of the Moon sends light back.
+    pub reflectance: Reflectance,
 }
 
 impl Scene {
@@ -212,12 +228,14 @@ impl Scene {
             Some(arcsec) => Angle::from_arcsec(arcsec),
             None => camera.pixel_angle() * TOLERANCE_IN_PIXELS,
         };
-        Ok(Setting { instant, place, camera, tolerance, sky: self.sky })
+        let reflectance = self.moon.reflectance;
+        Ok(Setting { instant, place, camera, tolerance, sky: self.sky, reflectance })
     }
 
     fn check_numbers(&self) -> Result<(), SceneError> {
         let eye = &self.eye;
         let checks = [
+            ("moon.danjon", Some(self.moon.danjon.number()), 0.0, Danjon::BRIGHTEST),
             ("tolerance_arcsec", self.tolerance_arcsec, 0.0, 360_000.0),
             ("layers.magnitude_limit", self.layers.magnitude_limit, -30.0, 100.0),
             ("eye.display_peak_cd_m2", Some(eye.display_peak_cd_m2), 1.0, 10_000.0),
@@ -261,6 +279,7 @@ mod tests {
             },
             layers: Layers::default(),
             sky: None,
+            moon: SceneMoon::default(),
             air: Atmosphere::default(),
             eye: Eye::default(),
             marks: Marks::default(),

@@ -13,6 +13,7 @@ use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::{Apparent, Dir, Horizon, Local, View};
 use nocturne::image::Image;
+use nocturne::light::moon::Reflectance;
 use nocturne::light::night::Night;
 use nocturne::place::{HEIGHT_RANGE_M, Place};
 use nocturne::plan::FramePlan;
@@ -359,7 +360,8 @@ fn planned((instant, place, camera, mut air, layers, stars): SmallScene) -> Fram
         relief: Arc::new(MoonRelief { width, height, elevation_m: vec![0; 32] }),
         hapke: Arc::new(MoonHapke { width, height, cells: vec![[cell; 3]; 32] }),
     };
-    let setting = Setting { instant, place, camera, tolerance, sky: None };
+    let setting =
+        Setting { instant, place, camera, tolerance, sky: None, reflectance: Reflectance::Hapke };
     lay(&setting, &layers, &night, || Ok(maps)).unwrap().0
 }
 

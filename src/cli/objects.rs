@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use crate::air::Atmosphere;
 use crate::catalog::{Catalogs, MoonFeature};
 use crate::ephemeris::Body;
+use crate::light::earth_shadow::Danjon;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::place::Place;
 use crate::units::Angle;
@@ -77,7 +78,14 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
     // Magnitudes are those of now wherever one stands.
     let place = found.map_or_else(|| Place::new(0.0, 0.0, 0.0), Ok)?;
     let instant = stage::instant(&args.at, &place)?;
-    let night = stage::night(&instant, &place, TOLERANCE, &Atmosphere::default(), catalogs)?;
+    let night = stage::night(
+        &instant,
+        &place,
+        TOLERANCE,
+        &Atmosphere::default(),
+        Danjon::default(),
+        catalogs,
+    )?;
     let query = args.query.to_lowercase();
     let is_called = |object: &LitObject| {
         let names = [night.label(object), number(object, &night), designation(object, &night)];

@@ -10,8 +10,10 @@ use crate::air::classic::{ClassicModel, ClassicSky};
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
 use crate::eye::Eye;
+use crate::light::earth_shadow::Danjon;
+use crate::light::moon::Reflectance;
 use crate::plan::classic::ClassicLight;
-use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, ScenePlace};
+use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 
 use super::WhereArgs;
 use super::error::CliError;
@@ -60,6 +62,12 @@ pub struct RenderArgs {
     /// Turbidity of a classic model [default: that of the aerosol]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     turbidity: Option<f64>,
+    /// How dark an eclipsed Moon is, Danjon's number: 0, very dark, to 4, bright orange [default: 2.5]
+    #[arg(long, value_name = "L", allow_hyphen_values = true)]
+    danjon: Option<f64>,
+    /// How the ground of the Moon sends light back [default: hapke]
+    #[arg(long, value_enum, value_name = "LAW")]
+    moon: Option<MoonArg>,
     /// Brighter (positive) or darker PNG, in factors of two [default: 0]
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
     exposure: Option<f64>,
@@ -112,6 +120,23 @@ impl From<ProjectionArg> for Projection {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
+enum MoonArg {
+    /// Hapke 2012, with the parameters of each place after Sato et al. 2014
+    Hapke,
+    /// Jensen et al. 2001
+    Jensen,
+}
+
+impl MoonArg {
+    fn law(self) -> Reflectance {
+        match self {
+            MoonArg::Hapke => Reflectance::Hapke,
+            MoonArg::Jensen => Reflectance::Jensen,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
 enum SkyArg {
     /// The air itself, by scattering
     Solved,
@@ -151,7 +176,14 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     let mut progress = Progress::new(args.quiet, outputs.steps());
 
     let night = progress.step("positions", || {
-        stage::night(&setting.instant, &setting.place, setting.tolerance, &scene.air, catalogs)
+        stage::night(
+            &setting.instant,
+            &setting.place,
+            setting.tolerance,
+            &scene.air,
+            scene.moon.danjon,
+            catalogs,
+        )
     })?;
     if let Some(Look::Object(name)) = &args.look {
         let towards = look::towards(name, &night)?;
@@ -225,6 +257,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         },
         layers: Layers::default(),
         sky: None,
+        moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),
@@ -241,6 +274,12 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         scene.air = atmosphere::find(words)?;
     }
     scene.sky = sky(args, scene.sky)?;
+    if let Some(number) = args.danjon {
+        scene.moon.danjon = Danjon::new(number).ok_or_else(|| {
+            CliError::Usage(format!("--danjon is {number}, outside 0 to 4; choose a value inside"))
+        })?;
+    }
+    scene.moon.reflectance = args.moon.map_or(scene.moon.reflectance, MoonArg::law);
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
     scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);

@@ -3,6 +3,7 @@
 use crate::air::Atmosphere;
 use crate::catalog::Catalogs;
 use crate::ephemeris::{Ephemeris, EphemerisError};
+use crate::light::earth_shadow::Danjon;
 use crate::light::night::Night;
 use crate::place::Place;
 use crate::sky::SkyState;
@@ -58,10 +59,12 @@ pub fn night(
     place: &Place,
     tolerance: Angle,
     air: &Atmosphere,
+    danjon: Danjon,
     catalogs: &Catalogs,
 ) -> Result<Night, CliError> {
     let ephemeris = Ephemeris::load(catalogs, tolerance)?;
     let sky = SkyState::at(&ephemeris, instant, place, tolerance)?;
     let features = catalogs.moon_features()?;
-    Ok(Night::of(sky, catalogs.stars()?, air).with_moon_features(features))
+    let night = Night::with_danjon(sky, catalogs.stars()?, air, danjon);
+    Ok(night.with_moon_features(features))
 }

@@ -247,7 +247,7 @@ impl<'a> SeenBody<'a> {
     }
 
     /// The globe of the Moon; none where it is not drawn as one.
-    pub fn globe(&self, surface: &MoonMaps) -> Option<Globe> {
+    pub fn globe(&self, surface: &MoonMaps, law: Reflectance) -> Option<Globe> {
         if !self.is_globe() {
             return None;
         }
@@ -255,7 +255,14 @@ impl<'a> SeenBody<'a> {
         let body_from_horizon = self.night.sky.moon.horizon_from_moon_fixed.inverse().matrix();
         let to_sun = body_from_horizon * self.state.dir_to_sun.vector();
         let sun_radius = Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin());
-        let picture_px = (self.across_px() * EXTENT).ceil().clamp(16.0, LARGEST_PICTURE_PX) as u32;
+        // Of a small disc the limb is most; of a large one a pixel is as fine as the maps.
+        let fineness = match self.across_px() {
+            small if small < 64.0 => 4,
+            medium if medium < 300.0 => 2,
+            _ => 1,
+        };
+        let picture_px = self.across_px() * EXTENT * f64::from(fineness);
+        let picture_px = picture_px.ceil().clamp(16.0, LARGEST_PICTURE_PX) as u32;
         let radius_px = picture_px.div_ceil(2) as usize;
         let ground = MoonSurface::new(&surface.albedo, &surface.hapke);
         let shadows = Shadows::cast(&surface.relief, to_sun, sun_radius, radius_px);
@@ -266,10 +273,11 @@ impl<'a> SeenBody<'a> {
             to_sun,
             distance: self.state.distance_km / MOON_RADIUS_KM,
             picture_px,
+            fineness,
             shadow: self.night.eclipse.moon.as_ref().map(|eclipsed| {
                 UmbraTable::of(&eclipsed.shadow, &eclipsed.place, &body_from_horizon)
             }),
-            ground: Arc::new(Ground::at_phase(Reflectance::Hapke, &ground, self.state.phase_angle)),
+            ground: Arc::new(Ground::at_phase(law, &ground, self.state.phase_angle)),
             shadows: Arc::new(shadows),
         })
     }

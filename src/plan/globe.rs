@@ -45,8 +45,9 @@ pub struct Globe {
     pub to_sun: DVec3,
     /// Of the observer from the centre, in radii of the Moon.
     pub distance: f64,
-    /// Edge of its picture, pixels.
+    /// Edge of its picture, pixels, and how many of them lie along a pixel of the frame.
     pub picture_px: u32,
+    pub fineness: u32,
     pub ground: Arc<Ground>,
     pub shadows: Arc<Shadows>,
     /// The shadow of the Earth, in an eclipse.
@@ -363,6 +364,7 @@ mod tests {
             to_sun: DVec3::X,
             distance: 220.0,
             picture_px,
+            fineness: 1,
             ground: Arc::clone(&ground),
             shadows: Arc::clone(&shadows),
             shadow: None,

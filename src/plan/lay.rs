@@ -4,6 +4,7 @@ use crate::camera::Camera;
 use crate::catalog::{CatalogError, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
+use crate::light::moon::Reflectance;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::scene::{Layers, Setting};
 use crate::sky::BodyState;
@@ -79,7 +80,7 @@ pub fn lay_in(
                     Some(read) => read().map(Some),
                     None => Ok(None),
                 };
-                lay_body(&seen, surface, &mut plan)?
+                lay_body(&seen, surface, setting.reflectance, &mut plan)?
             }
             None => match lay_point(&camera, object.apparent, object.ground, &mut plan.splats) {
                 true => Laid::Points,
@@ -229,6 +230,7 @@ enum Laid {
 fn lay_body(
     seen: &SeenBody,
     moon: impl FnOnce() -> Result<Option<MoonMaps>, CatalogError>,
+    law: Reflectance,
     plan: &mut FramePlan,
 ) -> Result<Laid, PlanError> {
     let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };
@@ -250,7 +252,7 @@ fn lay_body(
         }
         return Ok(points(any));
     }
-    let globe = surface.as_ref().and_then(|surface| seen.globe(surface));
+    let globe = surface.as_ref().and_then(|surface| seen.globe(surface, law));
     plan.discs.push(seen.disc(shape, globe, &air, bounds_px));
     Ok(Laid::Disc { bands: air.bands() })
 }

@@ -157,7 +157,8 @@ pub fn direction<F>(dir: Dir<F>, with: f64) -> [f32; 4] {
 /// Of the tiles that a globe is drawn in: edge in pixels, columns and rows.
 pub fn globe_tiles(disc: &Disc) -> [u32; 3] {
     let [first, last] = disc.bounds_px;
-    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| 0.5 * f64::from(globe.picture_px));
+    let of_frame = |globe: &Globe| f64::from(globe.picture_px) / f64::from(globe.fineness);
+    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| 0.5 * of_frame(globe));
     // Straight across a tile, a point of the disc is off by a twentieth of a pixel.
     let tile_px = (0.4 * radius_px).sqrt().clamp(4.0, 32.0).floor();
     let [columns, rows] =
@@ -218,10 +219,10 @@ impl DiscUniform {
         let (view, lowest) = (disc.lowest_in_view.vector(), disc.lowest.vector());
         let (sin, cos) = shape.centre.altitude().sin_cos();
         let sin_radius = shape.angular_radius.sin();
-        let samples = match disc.globe {
-            Some(_) => {
+        let samples = match &disc.globe {
+            Some(globe) => {
                 let [tile_px, columns, _] = globe_tiles(disc);
-                [tile_px, columns, 0, 0]
+                [tile_px, columns, globe.fineness, 0]
             }
             None => {
                 let [inside, edge] = disc.samples;

@@ -9,15 +9,20 @@ use libtest_mimic::Trial;
 
 use super::harness::{DARK, IMPOSSIBLE, Machine, Nocturne, nocturne, trial, words};
 
-const FILES: [&str; 7] = [
+const FILES: [&str; 9] = [
     "stars.bin",
     "places.csv",
     "moon_albedo.bin",
+    "moon_relief.bin",
+    "moon_hapke.bin",
     "de440.bin",
     "de431.bin",
     "nutation.bin",
     "libration.bin",
 ];
+
+/// Of them, those that the Moon's face is drawn from.
+const MOON_FILES: [&str; 3] = ["moon_albedo.bin", "moon_relief.bin", "moon_hapke.bin"];
 
 /// The full Moon over Flagstaff, large enough to show its face.
 const MOON: &str = "render --at 2026-08-27T23:30-07:00 --place Flagstaff --look Moon --fov 1 \
@@ -64,7 +69,7 @@ pub fn trials(machine: &Machine) -> Vec<Trial> {
         trial("catalogs::what_is_not_needed_is_not_read", || {
             let line = "render --lat 35 --lon -111 --quiet --describe sky.json --catalogs copy";
             let run = copied(nocturne(words(line)));
-            for file in ["places.csv", "moon_albedo.bin"] {
+            for file in ["places.csv", "moon_albedo.bin", "moon_relief.bin", "moon_hapke.bin"] {
                 fs::remove_file(run.path("copy").join(file)).unwrap();
             }
             run.done();
@@ -72,7 +77,7 @@ pub fn trials(machine: &Machine) -> Vec<Trial> {
     ];
     for file in FILES {
         for (harm, do_harm) in HARMS {
-            let needs_adapter = file == "moon_albedo.bin";
+            let needs_adapter = MOON_FILES.contains(&file);
             trials.push(
                 trial(format!("catalogs::{file}_{harm}"), move || refused(file, harm, do_harm))
                     .with_ignored_flag(needs_adapter && !machine.draws),
@@ -85,7 +90,7 @@ pub fn trials(machine: &Machine) -> Vec<Trial> {
 /// Harms a file, and expects that its reader says so, whichever way the folder is named.
 fn refused(file: &str, harm: &str, do_harm: Harm) {
     let line = || match file {
-        "moon_albedo.bin" => nocturne(words("render --scene moon.toml -o old.png"))
+        _ if MOON_FILES.contains(&file) => nocturne(words("render --scene moon.toml -o old.png"))
             .with_file("moon.toml", moon_without_air()),
         "de440.bin" | "de431.bin" | "nutation.bin" | "libration.bin" => {
             nocturne(words("ephemeris --body Moon --from 2026-01-01 --to 2026-01-02 -o old.csv"))
@@ -119,7 +124,7 @@ fn moon_without_air() -> &'static str {
 fn copied(run: Nocturne) -> Nocturne {
     let from = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("catalogs");
     fs::create_dir(run.path("copy")).unwrap();
-    for file in FILES.iter().chain(&["hipparcos.csv"]).map(OsStr::new) {
+    for file in FILES.iter().chain(&["hipparcos.csv", "moon_features.csv"]).map(OsStr::new) {
         fs::copy(from.join(file), run.path("copy").join(file)).unwrap();
     }
     run

@@ -23,6 +23,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::catalog::moon::hapke::BANDS_NM;
 use crate::catalog::moon::{HapkeCell, MoonHapke, MoonMap};
@@ -38,7 +39,8 @@ use crate::units::{Angle, MOON_RADIUS_KM};
 const GRID: (usize, usize) = (64, 48);
 
 /// How light leaves the ground.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Reflectance {
     /// Jensen et al. 2001; the same all over the Moon.
     Jensen,
