@@ -12,7 +12,7 @@ use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::eye::Eye;
 use nocturne::frame::{Dir, Horizon};
 use nocturne::light::night::Night;
-use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, ScenePlace};
+use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 use nocturne::sky::SkyState;
 use nocturne::units::Angle;
 
@@ -54,6 +54,7 @@ fn scene(time: &str, place: &[f64]) -> Scene {
         },
         layers: Layers::default(),
         sky: None,
+        moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),
