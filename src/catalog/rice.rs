@@ -26,8 +26,8 @@ const LONGEST_RUN: u32 = 20;
 const FULL_BITS: u32 = 18;
 /// Most low bits.
 const MOST_LOW_BITS: u32 = 17;
-/// Numbers after which what was learnt counts half.
-const MEMORY: u32 = 64;
+/// Logarithm of the numbers that the mean of what is coded goes back to.
+const MEMORY_BITS: u32 = 5;
 const KINDS: usize = 16;
 
 /// The bytes of a map, row by row; `width` divides its length and is not 0.
@@ -71,43 +71,51 @@ fn foretold(left: i32, above: i32, corner: i32, beyond: i32) -> (i32, usize) {
     (value, ((32 - rough.leading_zeros()) as usize).min(KINDS - 1))
 }
 
-/// What was learnt in each kind of surroundings.
-struct Learnt([(u32, u32); KINDS]);
+/// What was learnt in each kind of surroundings: the mean of what is coded, as a sum over as many
+/// as are remembered.
+struct Learnt([u32; KINDS]);
 
 impl Learnt {
     fn new() -> Self {
-        Learnt(std::array::from_fn(|kind| (1 << kind, 1)))
+        Learnt(std::array::from_fn(|kind| 1 << (kind as u32 + MEMORY_BITS)))
     }
 
+    /// The mean, rounded down to a power of two.
     #[inline(always)]
     fn low_bits(&self, kind: usize) -> u32 {
-        let (sum, count) = self.0[kind];
-        // The mean of what is coded, rounded down to a power of two.
-        let mean = sum / count;
-        (31 - (mean | 1).leading_zeros()).min(MOST_LOW_BITS)
+        (31 - (self.0[kind] >> MEMORY_BITS | 1).leading_zeros()).min(MOST_LOW_BITS)
     }
 
     #[inline(always)]
     fn learn(&mut self, kind: usize, coded: u32) {
-        let (sum, count) = &mut self.0[kind];
-        *sum += coded;
-        *count += 1;
-        if *count == MEMORY {
-            *sum /= 2;
-            *count /= 2;
-        }
+        let sum = &mut self.0[kind];
+        *sum = *sum - (*sum >> MEMORY_BITS) + coded;
     }
 }
 
-/// The neighbours of each number of a row: left, above, above left and above right. Outside the map
-/// they are what stands above, in the first row 0.
-#[inline(always)]
-fn neighbours(left: i32, above: &[i16], column: usize) -> [i32; 4] {
-    let up = i32::from(above[column]);
-    let beyond = above.get(column + 1).map_or(up, |&value| i32::from(value));
-    match column {
-        0 => [up, up, up, beyond],
-        _ => [left, up, i32::from(above[column - 1]), beyond],
+/// The neighbours of a number in the row above: corner, above and beyond. Outside the map they are
+/// what stands above, in the first row of a stripe 0.
+struct Window<'a> {
+    row: &'a [i16],
+    corner: i32,
+    above: i32,
+}
+
+impl<'a> Window<'a> {
+    fn new(row: &'a [i16]) -> Self {
+        let first = i32::from(row[0]);
+        Window { row, corner: first, above: first }
+    }
+
+    /// What is foretold of the number in a column, in which kind of surroundings; then goes on to
+    /// the next. `left` is the number before; in column 0 any.
+    #[inline(always)]
+    fn foretell(&mut self, left: i32, column: usize) -> (i32, usize) {
+        let (corner, above) = (self.corner, self.above);
+        let beyond = self.row.get(column + 1).map_or(above, |&value| i32::from(value));
+        let left = if column == 0 { above } else { left };
+        (self.corner, self.above) = (above, beyond);
+        foretold(left, above, corner, beyond)
     }
 }
 
@@ -117,11 +125,10 @@ fn encode_stripe(rows: &[i16], width: usize) -> Vec<u8> {
     let first = vec![0; width];
     let mut above: &[i16] = &first;
     for row in rows.chunks_exact(width) {
-        let mut left = 0;
+        let (mut left, mut window) = (0, Window::new(above));
         for (column, &value) in row.iter().enumerate() {
             let value = i32::from(value);
-            let [a, b, c, d] = neighbours(left, above, column);
-            let (guess, kind) = foretold(a, b, c, d);
+            let (guess, kind) = window.foretell(left, column);
             let low_bits = learnt.low_bits(kind);
             let difference = value - guess;
             // 0, -1, 1, -2, 2 ...
@@ -149,10 +156,9 @@ fn decode_stripe(stripe: &[u8], rows: &mut [i16], width: usize) -> Option<()> {
     let mut done: &mut [i16] = &mut [];
     for row in rows.chunks_exact_mut(width) {
         let above: &[i16] = if done.is_empty() { &first } else { done };
-        let mut left = 0;
+        let (mut left, mut window) = (0, Window::new(above));
         for (column, place) in row.iter_mut().enumerate() {
-            let [a, b, c, d] = neighbours(left, above, column);
-            let (guess, kind) = foretold(a, b, c, d);
+            let (guess, kind) = window.foretell(left, column);
             let low_bits = learnt.low_bits(kind);
             let run = bits.run()?;
             let coded = if run < LONGEST_RUN {

@@ -15,14 +15,15 @@
 //!
 //! The lobe with `1+c` points back to the Sun: `c` is positive on the Moon and follows the "hockey
 //! stick" `c = 3.29 exp(-17.4 b²) - 0.908` (Hapke 2012) there. H is that of Hapke 2002, *Icarus* 157,
-//! 523, eq. 13, good to 1 %. Effective cosines and the shadowing `S` of facets whose slopes have the
+//! 523, eq. 13, good to 0.4 % for the albedos of the Moon. Effective cosines and the shadowing `S` of facets whose slopes have the
 //! mean `theta` are those of Hapke 1984, *Icarus* 59, 41, eqs. 47 to 52. (Numbers of equations are
 //! recalled; the formulas were compared with two other programs.)
 //!
 //! Omitted, as in Sato et al.: coherent backscattering, porosity (filling factor 1).
 //!
 //! Accuracy: with the maps of Sato et al., REFF(30°, 0°, 30°) agrees with the calibrated colour map
-//! as well as that was fitted (rms 0.003 at 415 nm, 0.005 at 566, 0.006 at 643). For the light of the
+//! as well as that was fitted (rms 0.0028 at 415 nm, 0.0036 at 566, 0.0050 at 643; the means are
+//! 0.066, 0.096 and 0.113). For the light of the
 //! whole disc see [`super::surface`]. Below 5 degrees of phase the maps have no data of all places;
 //! at large angles the model is a little bright.
 
@@ -42,7 +43,7 @@ pub struct Facets {
     pub cos_incidence: f64,
     /// Effective cosine of emission.
     pub cos_emission: f64,
-    /// Shadowing function, 0 to 1.
+    /// Shadowing function, 0 to 1 (its approximations let it exceed 1 by less than 0.002).
     pub shadowing: f64,
 }
 
@@ -181,7 +182,7 @@ mod tests {
             }
             for (k, wanted) in h.into_iter().enumerate() {
                 let got = h_function(w, at(k));
-                assert!((got / wanted - 1.0).abs() < 0.01, "{w} {}: {got}, not {wanted}", at(k));
+                assert!((got / wanted - 1.0).abs() < 0.004, "{w} {}: {got}, not {wanted}", at(k));
             }
         }
         assert!((h_function(0.3, 1e-9) - 1.0).abs() < 1e-6);

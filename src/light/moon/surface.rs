@@ -12,13 +12,27 @@
 //! of waxing and waning, sum over ROLO:
 //!
 //! ```text
-//! TABLE
+//! phase    450 nm  550 nm  650 nm   550 nm by Jensen   550 nm, waxing over waning
+//!   1.55    1.057   1.046   1.041         0.980               1.001
+//!   3       1.059   1.048   1.037         1.054               1.002
+//!   5       1.056   1.046   1.032         1.115               1.005
+//!  10       1.047   1.039   1.028         1.166               1.014
+//!  20       1.038   1.031   1.032         1.151               1.028
+//!  30       1.050   1.044   1.054         1.148               1.047
+//!  50       1.066   1.062   1.083         1.141               1.095
+//!  70       1.070   1.068   1.096         1.085               1.138
+//!  90       1.098   1.094   1.126         1.014               1.157
+//!  97       1.119   1.114   1.144         1.004               1.149
+//! 110       1.153   1.147   1.165         1.016               1.133
+//! 120       1.154   1.150   1.142         1.071               1.110
 //! ```
 //!
 //! Omitted: mountains and their shadows beyond the roughness of the law; the parallax across the
 //! disc (0.3 degrees of phase from limb to limb); earthshine.
 //!
-//! Accuracy: the sum is within 0.3 % of a grid of 400 by 400 pixels.
+//! Accuracy: the sum is within 0.4 % of a grid of 400 by 400 pixels, 0.8 % for a thin crescent. With
+//! one set of parameters all over, the full Moon's inner third is 1.02 to 1.03 times as bright as its
+//! outer (Jensen: 1.001).
 
 use std::f64::consts::PI;
 
