@@ -28,9 +28,14 @@
 //! *Left out.* Higher orders of scattering, the flattening of the Earth (0.3 % of
 //! its radius), dispersion, weather and ozone that differ along the limb, bands of oxygen and water.
 //!
-//! *Accuracy.* The table is read within 2 % (tested). The penumbra is geometry: a per cent. The umbra
-//! is as dark as the air along the terminator makes it, which nobody knows in advance: that is
-//! [`Danjon`]'s number.
+//! *Accuracy.* The table is read within 2 % (tested). The penumbra is that of an opaque Earth of
+//! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 8" of the umbra of
+//! Danjon (tested for the eclipses of 2025-03-14, 2026-03-03 and 2029-01-01). The umbra is as dark as
+//! the air along the terminator makes it, which nobody knows in advance: that is [`Danjon`]'s number.
+//! In its middle, at mean distances, for L = 0 to 4: 2.0e-6, 5.8e-6, 1.5e-5, 3.5e-5 and 8.0e-5 of the
+//! illuminance of the full Sun, 14.2 to 10.2 magnitudes; the eclipse of 2025-03-14 has the whole Moon
+//! at magnitude 0.7, -0.4, -1.5, -2.6 and -3.8. At 40' from the axis light of 450 nm is 2.3 times
+//! that of 600 nm for L = 2.5, and half of it without ozone.
 
 mod limb;
 mod place;
@@ -42,7 +47,7 @@ use crate::light::spectrum::{LEN, Spectrum, Transmittance, wavelength_nm};
 use crate::light::sun::LimbDarkening;
 use crate::units::{AU_KM, Angle, SUN_RADIUS_KM, Xyzv};
 
-pub use limb::{Danjon, EarthLimb, LIMB_TOP_KM, LimbRay};
+pub use limb::{Danjon, EarthLimb, LIMB_TOP_KM, LimbRay, OutsideDanjon};
 pub use place::ShadowedMoon;
 
 /// Nodes of the table, equally far apart from the axis of the shadow to its outermost rim.
@@ -110,8 +115,8 @@ pub struct ShadowRow {
 }
 
 impl EarthShadow {
-    /// The shadow of the Earth with an air of this ozone, as dark as the number says. Some ten
-    /// milliseconds.
+    /// The shadow of the Earth with an air of this ozone, as dark as the number says. Some tens
+    /// of milliseconds.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 //! *Brightness.* The Earth's V magnitude against its phase angle, Mallama & Hilton 2018, *Astronomy
 //! and Computing* 25, 10: `-3.99 - 1.060e-3 a + 2.054e-4 a^2` at one astronomical unit from Sun and
 //! observer, `a` in degrees up to 170 (recalled; the geometric albedo is then 0.43). Beyond, it
-//! shrinks with the lit crescent, to nothing. The full Earth of mean distance gives the Moon 15.5 lx
+//! shrinks with the lit crescent, to nothing. The full Earth of mean distance gives the Moon 15.8 lx
 //! (magnitude -17.0); the usual 13 lx (-16.8) follow from Allen's albedo of 0.367, 20 lx from round
 //! numbers. Clouds change it by 10 % from night to night and 15 to 20 % with the seasons (Goode et al. 2001,
 //! *Geophys. Res. Lett.* 28, 1671; Pallé et al. 2003, *J. Geophys. Res.* 108, 4710): left out.
@@ -12,6 +12,10 @@
 //! 0.51, 0.43, 0.39 and 0.40 in U, B, V, R and I (Mallama, Krobusek & Pavlov 2017, *Icarus* 282, 19;
 //! recalled), straight between the wavelengths of the bands and scaled to the V magnitude. The same at
 //! every phase; what it does to the Moon is redder by the albedo of the Moon.
+//!
+//! *Measured.* Mean radiance of the dark side at phase angles of the Moon of 150, 120, 90 and 60
+//! degrees: 13.1, 13.7, 14.6 and 15.8 mag/arcsec2, fainter than the bright side by 6.8, 7.9, 9.4 and
+//! 11.2 magnitudes: lost in the glare of the bright side from half Moon on.
 //!
 //! *Angles.* The Earth's phase angle seen from the Moon is 180 degrees less the Moon's, but for the
 //! Sun's distance ([`EarthView`] takes the real angle). The Earth lights the near side nearly along

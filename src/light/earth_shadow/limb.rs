@@ -31,6 +31,7 @@
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use crate::air::aerosol::{Aerosol, AerosolProfile};
 use crate::air::extinction::SightLines;
@@ -59,16 +60,39 @@ const HAZE_KM: [f64; 2] = [10.0, 22.0];
 
 /// Danjon's number of the darkness of a lunar eclipse: 0, very dark, to 4, bright orange.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
-#[serde(transparent)]
+#[serde(try_from = "f64", into = "f64")]
 pub struct Danjon(f64);
+
+/// A number that is not on Danjon's scale.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "Danjon's number {0} is outside 0 to 4; give 0 for the darkest eclipse, 4 for the brightest"
+)]
+pub struct OutsideDanjon(f64);
+
+impl TryFrom<f64> for Danjon {
+    type Error = OutsideDanjon;
+    fn try_from(number: f64) -> Result<Danjon, OutsideDanjon> {
+        // Written so that NaN, which is in no range, is refused too.
+        let is_inside = (0.0..=Danjon::BRIGHTEST).contains(&number);
+        if is_inside { Ok(Danjon(number)) } else { Err(OutsideDanjon(number)) }
+    }
+}
+impl From<Danjon> for f64 {
+    fn from(danjon: Danjon) -> f64 {
+        danjon.0
+    }
+}
 
 impl Danjon {
     /// The largest number.
     pub const BRIGHTEST: f64 = 4.0;
 
-    /// None for what is not between 0 and 4.
-    pub fn new(number: f64) -> Option<Danjon> {
-        (0.0..=Danjon::BRIGHTEST).contains(&number).then_some(Danjon(number))
+    /// # Errors
+    ///
+    /// A number that is not between 0 and 4.
+    pub fn new(number: f64) -> Result<Danjon, OutsideDanjon> {
+        number.try_into()
     }
 
     /// The number itself, 0 to 4.
@@ -77,11 +101,7 @@ impl Danjon {
     }
 
     fn between(self, [dark, bright]: [f64; 2]) -> f64 {
-        dark + (bright - dark) * self.share()
-    }
-    /// A file may carry any number.
-    fn share(self) -> f64 {
-        (self.0 / Danjon::BRIGHTEST).clamp(0.0, 1.0)
+        dark + (bright - dark) * self.0 / Danjon::BRIGHTEST
     }
 
     /// Optical depth of the high haze at 550 nm.
@@ -232,8 +252,10 @@ mod tests {
 
     #[test]
     fn numbers_outside_the_scale_are_refused() {
-        assert_eq!(Danjon::new(4.1), None);
-        assert_eq!(Danjon::new(f64::NAN), None);
-        assert_eq!(Danjon::new(4.0).map(Danjon::number), Some(4.0));
+        let message = Danjon::new(4.1).unwrap_err().to_string();
+        assert!(message.starts_with("Danjon's number 4.1 is outside 0 to 4;"), "{message}");
+        assert!(Danjon::new(f64::NAN).is_err());
+        assert_eq!(Danjon::new(4.0).map(Danjon::number), Ok(4.0));
+        assert!(toml::from_str::<std::collections::BTreeMap<String, Danjon>>("l = -1.0").is_err());
     }
 }
