@@ -275,9 +275,8 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
     }
     scene.sky = sky(args, scene.sky)?;
     if let Some(number) = args.danjon {
-        scene.moon.danjon = Danjon::new(number).ok_or_else(|| {
-            CliError::Usage(format!("--danjon is {number}, outside 0 to 4; choose a value inside"))
-        })?;
+        scene.moon.danjon =
+            Danjon::new(number).map_err(|error| CliError::Usage(format!("--danjon: {error}")))?;
     }
     scene.moon.reflectance = args.moon.map_or(scene.moon.reflectance, MoonArg::law);
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
