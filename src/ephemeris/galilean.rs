@@ -11,8 +11,9 @@
 //! system (0.02").
 //!
 //! *Accuracy.* Against the integrated JUP310 of JPL: 450 km (0.14") on 2 March 2015 and 1810 km
-//! (0.6" at opposition) on 9 October 2053 (`tests/galilean.rs`). [`Galilean::bound`] is what is stated;
-//! beyond this century it is an estimate.
+//! (0.6" at opposition) on 9 October 2053 (`tests/galilean.rs`); against the series of the Bureau des
+//! Longitudes in libastro, in the plane of the sky, 2004 to 2034: 1.5". [`Galilean::bound`] is what
+//! is stated; beyond this century it is an estimate.
 
 mod terms;
 
