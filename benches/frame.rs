@@ -12,7 +12,7 @@ use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
 use nocturne::catalog::{Catalogs, MoonMaps};
-use nocturne::ephemeris::Ephemeris;
+use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::Dir;
 use nocturne::image::HdrFrame;
@@ -94,6 +94,39 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let frame = renderer.frame(night)?.frame;
         line("Eye::see", "CPU", see_ms(&frame));
+    }
+    for field_deg in [90.0, 10.0, 1.0] {
+        moon(&renderer, field_deg, &catalogs, &moon_maps)?;
+    }
+    Ok(())
+}
+
+/// The Moon alone in the middle of a picture, nine days old.
+fn moon(
+    renderer: &Renderer,
+    field_deg: f64,
+    catalogs: &Catalogs,
+    maps: &MoonMaps,
+) -> Result<(), Box<dyn Error>> {
+    let mut setting = setting("2026-08-22T04:00:00Z", 1920, 1080)?;
+    let ephemeris = Ephemeris::load(catalogs, setting.tolerance)?;
+    let sky = SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
+    let night = Night::of(sky, Vec::new(), &Atmosphere::default());
+    let apparent = night.body(Body::Moon).ok_or("no Moon")?.apparent;
+    (setting.camera.azimuth, setting.camera.altitude) = (apparent.azimuth(), apparent.altitude());
+    setting.camera.field_of_view = Angle::from_deg(field_deg);
+    let layers = Layers { skylight: false, ground: false, ..Layers::default() };
+    let mut kept = KeptAir::new(Store::NONE);
+    let mut lay = || lay_in(&setting, &layers, &night, || Ok(maps.clone()), &mut kept);
+    let (plan, _) = lay()?;
+    let globe = plan.discs.first().and_then(|disc| disc.globe.as_ref());
+    let triangles: u32 = globe.iter().flat_map(|globe| globe.mesh()).map(|b| b.triangles()).sum();
+    println!("The Moon in a field of {field_deg}°, 1920x1080: {triangles} triangles");
+    println!("  laying it, CPU {:24.2} ms", median_ms(SLOW, lay));
+    let empty = passes(renderer, &FramePlan { discs: Vec::new(), ..plan.clone() })?;
+    println!("  frame without it {:22.2} ms", empty.of("sky"));
+    for (pass, ms) in passes(renderer, &plan)?.passes.iter().skip(1) {
+        println!("  {pass:20} {ms:18.2} ms");
     }
     Ok(())
 }

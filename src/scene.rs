@@ -235,7 +235,6 @@ impl Scene {
     fn check_numbers(&self) -> Result<(), SceneError> {
         let eye = &self.eye;
         let checks = [
-            ("moon.danjon", Some(self.moon.danjon.number()), 0.0, Danjon::BRIGHTEST),
             ("tolerance_arcsec", self.tolerance_arcsec, 0.0, 360_000.0),
             ("layers.magnitude_limit", self.layers.magnitude_limit, -30.0, 100.0),
             ("eye.display_peak_cd_m2", Some(eye.display_peak_cd_m2), 1.0, 10_000.0),
