@@ -53,6 +53,9 @@ struct Ground {
     @builtin(position) position: vec4f,
     // Outward direction of the smooth globe, in the Moon's own axes.
     @location(0) normal: vec3f,
+    // What the law says of the ground around: no finer than the mesh.
+    @location(1) once: vec4f,
+    @location(2) often: vec3f,
 }
 
 // Given a direction in the Moon's own axes, its place on the maps: west to east, north to south.
@@ -70,25 +73,28 @@ fn vertex(@builtin(vertex_index) index: u32) -> Ground {
     let turn = 2.0 * PI * f32(index % corners) / f32(band.sectors);
     let out = vec3f(sin(theta) * cos(turn), sin(theta) * sin(turn), -cos(theta));
     let normal = globe.body_from_disc * out;
-    let elevation = textureSampleLevel(relief, across_maps, on_map(normal), 0.0).z;
+    let at = on_map(normal);
+    let elevation = textureSampleLevel(relief, across_maps, at, 0.0).z;
+    let single = textureSampleLevel(once, across_maps, at, 0.0);
+    let multiple = textureSampleLevel(often, across_maps, at, 0.0).xyz;
     let place = out * (1.0 + elevation);
     let from_observer = place + vec3f(0.0, 0.0, globe.distance);
     let away = length(from_observer);
     let seen = place.xy * (globe.distance / away);
     // From in front of the nearest mountain to behind the centre.
     let depth = (away - globe.distance + 1.02) / 1.2;
-    return Ground(vec4f(seen / globe.extent, depth, 1.0), normal);
+    return Ground(vec4f(seen / globe.extent, depth, 1.0), normal, single, multiple);
 }
 
 // The share of the Sun that is seen from a point of the globe.
 fn sunlit(in_sun: vec3f) -> f32 {
-    let angle = acos(clamp(in_sun.z, -1.0, 1.0));
-    if angle <= globe.first_shadow {
+    if in_sun.z >= cos(globe.first_shadow) {
         return 1.0;
     }
-    if angle >= globe.last_shadow {
+    if in_sun.z <= cos(globe.last_shadow) {
         return 0.0;
     }
+    let angle = acos(in_sun.z);
     let size = vec2f(textureDimensions(shadows));
     let turn = atan2(in_sun.y, in_sun.x) / (2.0 * PI);
     let row = (angle - globe.first_shadow) / (globe.last_shadow - globe.first_shadow);
@@ -117,15 +123,13 @@ fn h_function(cosine: f32, dim: vec3f) -> vec3f {
 }
 
 // The radiance factor over the reflectance, by colour: Hapke 2012, see src/light/moon/hapke.rs.
-fn law(at: vec2f, cos_incidence: f32, cos_emission: f32) -> vec3f {
+fn law(ground: Ground, cos_incidence: f32, cos_emission: f32) -> vec3f {
     let size = f32(textureDimensions(facets).x);
     let node = sqrt(vec2f(cos_incidence, cos_emission)) * ((size - 1.0) / size) + 0.5 / size;
     let facet = textureSampleLevel(facets, across_facets, node, 0.0);
-    let single = textureSampleLevel(once, across_maps, at, 0.0);
-    let multiple = textureSampleLevel(often, across_maps, at, 0.0).xyz;
-    let dim = sqrt(max(1.0 - single.w * globe.darkness.xyz, vec3f(0.0)));
+    let dim = sqrt(max(1.0 - ground.once.w * globe.darkness.xyz, vec3f(0.0)));
     let again = h_function(facet.x, dim) * h_function(facet.y, dim) - 1.0;
-    return (single.xyz + multiple * again) * (facet.x / (facet.x + facet.y) * facet.z);
+    return (ground.once.xyz + ground.often * again) * (facet.x / (facet.x + facet.y) * facet.z);
 }
 
 @fragment
@@ -149,5 +153,5 @@ fn fragment(ground: Ground) -> @location(0) vec4f {
         return vec4f(vec3f(0.0), earthlit);
     }
     let light = beside_earth(outward) * sun;
-    return vec4f(reflectance * law(at, cos_incidence, cos_emission) * light, earthlit);
+    return vec4f(reflectance * law(ground, cos_incidence, cos_emission) * light, earthlit);
 }

@@ -48,10 +48,13 @@ const BEYOND_LIMB: f64 = 0.01;
 /// Wavelengths whose refraction tells whether colours come apart, and how far they may unseen, pixels.
 const DISPERSION_NM: [f64; 2] = [650.0, 450.0];
 const UNSEEN_PX: f64 = 0.2;
+/// The same on a globe, whose limb is not as sharp as the Sun's.
+const UNSEEN_ON_GLOBE_PX: f64 = 1.0;
 /// Wavelengths of the first and the last band: beyond them low air leaves no light, or eyes see none.
 const BANDS_NM: [f64; 2] = [680.0, 420.0];
 /// Bands that a disc is divided into: more where they would stand more than a pixel apart.
 const BANDS: [usize; 2] = [8, 32];
+const BANDS_OF_GLOBE: usize = 3;
 
 /// A body, its light, and the camera that looks at it.
 pub struct SeenBody<'a> {
@@ -166,7 +169,8 @@ impl<'a> SeenBody<'a> {
     pub fn air(&self) -> Option<DiscAir> {
         let dispersion = self.dispersion();
         let apart_px = dispersion.rad() * self.px_per_rad;
-        let is_coloured = apart_px > UNSEEN_PX && !self.is_small();
+        let unseen_px = if self.is_globe() { UNSEEN_ON_GLOBE_PX } else { UNSEEN_PX };
+        let is_coloured = apart_px > unseen_px && !self.is_small();
         // Blue is lifted, red is lowered, by about half of what parts them.
         let spread = if is_coloured { dispersion } else { Angle::ZERO };
         let lowest = (self.limb(-1.0 - BEYOND_LIMB) - spread).max(self.night.horizon);
@@ -204,7 +208,8 @@ impl<'a> SeenBody<'a> {
         let [red, blue] = BANDS_NM.map(|nm: f64| nm.powi(-2));
         let [red_of, blue_of] = DISPERSION_NM.map(|nm: f64| nm.powi(-2));
         let across_px = apart_px * (blue - red) / (blue_of - red_of);
-        let last = (across_px.ceil() as usize).clamp(BANDS[0] - 1, BANDS[1] - 1);
+        let fewest = if self.is_globe() { BANDS_OF_GLOBE } else { BANDS[0] };
+        let last = (across_px.ceil() as usize).clamp(fewest - 1, BANDS[1] - 1);
         let band = |band: usize| {
             let nm = (red + (blue - red) * band as f64 / last as f64).powf(-0.5);
             let share = |nm: f64| {
