@@ -186,7 +186,7 @@ impl Globe {
                 sectors: (sectors as u32).clamp(24, 2880),
             }
         };
-        [band([0, 75], 16.0, 24.0), band([75, 85], 64.0, 12.0), band([85, 96], 20.0, 4.0)]
+        [band([0, 75], 16.0, 24.0), band([75, 85], 64.0, 12.0), band([85, 96], 30.0, 4.0)]
     }
 
     /// How often the relief may be halved and still have a sample for each pixel of the picture.
