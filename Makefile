@@ -33,10 +33,14 @@ goldens: driver
 	NOCTURNE_GOLDENS=write cargo test --release --test golden
 
 # Draws the pictures of the README.
+MOON = --place Flagstaff --look Moon --fov 0.6 --size 480x480
 pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 	cargo run --release --example 6_twilight_sheets docs/twilight
+	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1.5 -o docs/moon/quarter.png
+	$(NOCTURNE) render --at 2026-03-03T11:05:00Z $(MOON) -o docs/moon/eclipse.png
+	$(NOCTURNE) render --at 2026-07-17T04:00:00Z $(MOON) --exposure 5 -o docs/moon/earthshine.png
 
 # Compares the classic sky models with ours: docs/classic_skies.md and its picture.
 classic:

@@ -28,7 +28,7 @@ struct Disc {
     occluder: vec4f,
     // Samples in a pixel inside the disc and turn of their lattice; the same near an edge. Of a globe, in
     // x, the edge of a tile in pixels, in y the columns of tiles, in z how many times finer its picture is
-    // than the frame.
+    // than the frame, in w 1 if the horizon cuts it.
     samples: vec4u,
     // Nodes in a radian of apparent altitude.
     per_step: f32,
@@ -325,7 +325,7 @@ fn globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
     let right = dpdx(seen.at);
     let down = dpdy(seen.at);
     // The ground stands before what lies below the first node.
-    let over_ground = clamp(0.5 + seen.place / width, 0.0, 1.0);
+    let over_ground = select(1.0, clamp(0.5 + seen.place / width, 0.0, 1.0), disc.samples.w == 1u);
     if over_ground == 0.0 || length(seen.at) > disc.centre.w + length(right) + length(down) {
         return vec4f(0.0);
     }

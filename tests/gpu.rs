@@ -346,6 +346,7 @@ fn disc_plan(camera: Camera, law: SurfaceLaw, radius: Angle, phase_deg: f64) -> 
     let middle = [f64::from(camera.width_px) / 2.0, f64::from(camera.height_px) / 2.0];
     let across_px = 2.0 * radius.rad() * camera.focal_px();
     let disc = Disc {
+        is_cut_by_horizon: false,
         globe: None,
         label: "body",
         shape,

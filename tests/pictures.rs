@@ -49,6 +49,8 @@ fn main() {
         ),
         GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
         GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
+        GpuTest::new("a_globe_has_the_light_of_the_moon_at_any_size", globe_has_its_light),
+        GpuTest::new("a_full_moon_is_as_bright_at_its_limb", full_moon_is_flat),
         GpuTest::new("a_disc_is_that_of_its_plan", disc_is_that_of_its_plan),
         GpuTest::new("limbs_stand_right_in_the_narrowest_field", limbs_in_the_narrowest_field),
         GpuTest::new("the_setting_sun_has_its_flux_and_its_rims", setting_sun_has_its_rims),
@@ -221,6 +223,75 @@ fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
         }
     }
     Ok(())
+}
+
+/// The Moon alone in the middle of a square picture.
+fn moon(utc: &str, field_deg: f64, width_px: u32) -> Result<Scene, Failed> {
+    let mut scene = scene();
+    scene.utc = utc.to_owned();
+    (scene.layers.skylight, scene.layers.ground) = (false, false);
+    (scene.layers.stars, scene.layers.planets, scene.layers.sun) = (false, false, false);
+    let (_, _, _, night) = laid(&scene)?;
+    let apparent = night.body(Body::Moon).ok_or("no Moon")?.apparent;
+    let camera = &mut scene.camera;
+    (camera.azimuth_deg, camera.altitude_deg) =
+        (apparent.azimuth().deg(), apparent.altitude().deg());
+    (camera.field_of_view_deg, camera.width_px, camera.height_px) = (field_deg, width_px, width_px);
+    Ok(scene)
+}
+
+fn globe_has_its_light(renderer: &Renderer) -> Result<(), Failed> {
+    // Crescent, first quarter, nearly full, in an eclipse; from 10 pixels across to 1900.
+    for utc in [
+        "2026-08-17T01:30:00Z",
+        "2026-08-20T03:30:00Z",
+        "2026-08-27T06:00:00Z",
+        "2026-03-03T10:30:00Z",
+    ] {
+        for (field_deg, width_px) in [(12.0, 256), (4.0, 256), (1.0, 256), (0.7, 700), (0.56, 2000)]
+        {
+            let (frame, setting, night) = drawn(renderer, &moon(utc, field_deg, width_px)?)?;
+            let mut sum = Xyzv::BLACK;
+            for y in 0..frame.height_px() {
+                for x in 0..frame.width_px() {
+                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                    sum += frame.xyzv(x, y) * setting.camera.pixel_solid_angle_sr(pixel);
+                }
+            }
+            let expected = night.body(Body::Moon).ok_or("no Moon")?.ground;
+            for (got, wanted) in [(sum.x, expected.x), (sum.y, expected.y), (sum.z, expected.z)] {
+                let error = got / wanted - 1.0;
+                // The Earth's light, which is not in the description, is a hundredth in the crescent.
+                check((-0.0125..0.02).contains(&error), || {
+                    format!("{utc}, {field_deg}° on {width_px} px: off by {error:.4}")
+                })?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn full_moon_is_flat(renderer: &Renderer) -> Result<(), Failed> {
+    // Two degrees from opposition; the seas are in it, and mostly inside.
+    let (frame, _, night) = drawn(renderer, &moon("2025-02-12T12:00:00Z", 0.7, 500)?)?;
+    let moon = &night.sky.moon.state;
+    check(moon.phase_angle.deg() < 4.0, || format!("{}", moon.phase_angle.deg()))?;
+    let radius_px = 500.0 * moon.angular_radius.deg() / 0.7;
+    let (mut inner, mut outer) = ((0.0, 0), (0.0, 0));
+    for y in 0..500 {
+        for x in 0..500 {
+            let off = (f64::from(x) - 249.5).hypot(f64::from(y) - 249.5) / radius_px;
+            let part = match off {
+                off if off < 1.0 / 3.0 => &mut inner,
+                off if (0.8..0.95).contains(&off) => &mut outer,
+                _ => continue,
+            };
+            part.0 += frame.xyzv(x, y).y;
+            part.1 += 1;
+        }
+    }
+    let ratio = inner.0 / f64::from(inner.1) / (outer.0 / f64::from(outer.1));
+    check((0.8..1.1).contains(&ratio), || format!("inner over outer: {ratio}"))
 }
 
 /// The Sun over the sea at an equinox, its centre a third of a degree above the horizon, and nothing

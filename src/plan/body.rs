@@ -416,6 +416,7 @@ impl<'a> SeenBody<'a> {
             bounds_px,
             lowest,
             lowest_in_view: self.camera.view_from_apparent() * lowest,
+            is_cut_by_horizon: air.lowest <= self.night.horizon,
             step: air.step,
             bands: air
                 .bands

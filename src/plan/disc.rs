@@ -108,6 +108,8 @@ pub struct Disc {
     /// One, or some from red to blue; their light adds up. Where there is a globe, each in as many parts
     /// as it has channels, one after the other.
     pub bands: Vec<DiscBand>,
+    /// Whether the lowest node is where the ground begins.
+    pub is_cut_by_horizon: bool,
     /// What its surface looks like, if not like its shape.
     pub globe: Option<Globe>,
     /// Samples in a pixel: inside the disc, and near its edges.

@@ -222,7 +222,7 @@ impl DiscUniform {
         let samples = match &disc.globe {
             Some(globe) => {
                 let [tile_px, columns, _] = globe_tiles(disc);
-                [tile_px, columns, globe.fineness, 0]
+                [tile_px, columns, globe.fineness, u32::from(disc.is_cut_by_horizon)]
             }
             None => {
                 let [inside, edge] = disc.samples;
