@@ -60,6 +60,9 @@ fn main() -> ExitCode {
     }
 }
 
+/// Packs one file of maps.
+type PackMap<'a> = &'a dyn Fn(&Path) -> Result<Packed, String>;
+
 /// True if all is well: written, or found to be the same.
 fn run(args: &Args) -> Result<bool, String> {
     let mut packed = vec![
@@ -67,7 +70,7 @@ fn run(args: &Args) -> Result<bool, String> {
         pack::places(&args.raw).map_err(|error| error.to_string())?,
         nutation()?,
     ];
-    let maps: [(_, _, &dyn Fn(&Path) -> _); 3] = [
+    let maps: [(_, _, PackMap<'_>); 3] = [
         (MOON_PICTURE, &args.moon, &|path| moon(&args.raw, path)),
         (MOON_RELIEF, &args.relief, &relief),
         (MOON_HAPKE, &args.hapke, &hapke),
