@@ -9,8 +9,7 @@
 //! north, with one roughness (23.657°), filling factor 1 and no coherent backscattering. Cells here
 //! are 2 degrees wide, means of four; towards the poles those at 70° go on.
 //!
-//! Accuracy: a step of 1/255 of the range of each parameter. REFF(30°, 0°, 30°) computed from the
-//! packed cells lies within 0.7 % (rms) of the mean of the four that a cell is made of.
+//! Accuracy: a step of 1/255 of the range of each parameter.
 
 use crate::catalog::rice;
 use crate::catalog::seal::{self, Kind};
