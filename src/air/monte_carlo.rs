@@ -30,7 +30,7 @@ use rayon::prelude::*;
 
 use crate::air::Atmosphere;
 use crate::air::scattering::lanes::LANES;
-use crate::air::scattering::profile::{Optics, Profile, WAVELENGTH_RANGE_NM};
+use crate::air::scattering::profile::{Optics, Profile};
 use crate::air::scattering::{EARTH_RADIUS_KM, ScatteringError};
 use crate::units::Angle;
 
@@ -104,12 +104,7 @@ impl MonteCarlo {
         wavelengths_nm: &[f64],
     ) -> Result<MonteCarlo, ScatteringError> {
         air.validate()?;
-        if wavelengths_nm.is_empty() {
-            return Err(ScatteringError::NoWavelengths);
-        }
-        if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
-            return Err(ScatteringError::Wavelength(bad));
-        }
+        ScatteringError::check_wavelengths(wavelengths_nm)?;
         let ground_km = air.ground_km(observer_height_m);
         let shells = Shells::new(&Profile::new(air, ground_km), ground_km);
         let density_ratio = air.density_ratio_at(observer_height_m);

@@ -80,6 +80,19 @@ pub enum ScatteringError {
     Interrupted,
 }
 
+impl ScatteringError {
+    /// That there are wavelengths, and that all of them have cross-sections.
+    pub(super) fn check_wavelengths(wavelengths_nm: &[f64]) -> Result<(), ScatteringError> {
+        if wavelengths_nm.is_empty() {
+            return Err(ScatteringError::NoWavelengths);
+        }
+        match wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
+            Some(&bad) => Err(ScatteringError::Wavelength(bad)),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Sizes of the tables of one kind of air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
@@ -314,12 +327,7 @@ impl ScatteringTables {
         air.validate()?;
         let resolution = quality.of(air);
         resolution.check()?;
-        if wavelengths_nm.is_empty() {
-            return Err(ScatteringError::NoWavelengths);
-        }
-        if let Some(&bad) = wavelengths_nm.iter().find(|nm| !WAVELENGTH_RANGE_NM.contains(*nm)) {
-            return Err(ScatteringError::Wavelength(bad));
-        }
+        ScatteringError::check_wavelengths(wavelengths_nm)?;
         let density_ratio = air.density_ratio_at(height_m);
         let geometry = Geometry::of(air, height_m);
         let Geometry { ground_km, refractivity, .. } = geometry;

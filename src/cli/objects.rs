@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use crate::air::Atmosphere;
 use crate::catalog::{Catalogs, MoonFeature};
 use crate::ephemeris::Body;
+use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::earth_shadow::Danjon;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::place::Place;
@@ -125,16 +126,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         let (known_as, v) = (designation(object, &night), object.magnitude.0);
         write!(out, "{name:<26} {number:<8} {known_as:<8} {v:>6.2} {b_v:>6}")?;
         if is_somewhere {
-            let (azimuth, altitude) = (object.dir.azimuth(), object.dir.altitude());
-            let seen_at = object.apparent.altitude();
-            write!(
-                out,
-                " {:>9.4} {:>+9.4} {:>+9.4} {}",
-                azimuth.deg(),
-                altitude.deg(),
-                seen_at.deg(),
-                wind(azimuth)
-            )?;
+            write_where(out, object.dir, object.apparent)?;
         }
         writeln!(out)?;
     }
@@ -157,16 +149,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         );
         write!(out, "{:<26} {:<17} {:>13}", feature.name, on_moon, feature.kind)?;
         if is_somewhere {
-            let (azimuth, altitude) = (point.dir.azimuth(), point.dir.altitude());
-            let seen_at = apparent.altitude();
-            write!(
-                out,
-                " {:>9.4} {:>+9.4} {:>+9.4} {}",
-                azimuth.deg(),
-                altitude.deg(),
-                seen_at.deg(),
-                wind(azimuth)
-            )?;
+            write_where(out, point.dir, apparent)?;
         }
         writeln!(out)?;
     }
@@ -185,4 +168,21 @@ fn designation(object: &LitObject, night: &Night) -> String {
         Kind::Star(index) => night.stars[index].designation.clone().unwrap_or_default(),
         Kind::Body(_) | Kind::Satellite(_) => String::new(),
     }
+}
+
+/// Azimuth and altitude without air, the altitude at which it is seen, and the wind, in columns.
+fn write_where(
+    out: &mut impl Write,
+    dir: Dir<Horizon>,
+    apparent: Dir<Apparent>,
+) -> std::io::Result<()> {
+    let azimuth = dir.azimuth();
+    write!(
+        out,
+        " {:>9.4} {:>+9.4} {:>+9.4} {}",
+        azimuth.deg(),
+        dir.altitude().deg(),
+        apparent.altitude().deg(),
+        wind(azimuth)
+    )
 }

@@ -275,7 +275,6 @@ impl<'a> SeenBody<'a> {
             relief: Arc::clone(&surface.relief),
             albedo: Arc::clone(&surface.albedo),
             body_from_disc: body_from_horizon * DMat3::from_cols(level, up, away),
-            to_sun,
             distance: self.state.distance_km / MOON_RADIUS_KM,
             picture_px,
             fineness,

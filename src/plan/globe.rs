@@ -41,8 +41,6 @@ pub struct Globe {
     pub albedo: Arc<MoonMap>,
     /// Takes axes of the disc (level, up, away from the observer) to the Moon's own.
     pub body_from_disc: DMat3,
-    /// Towards the Sun, in the Moon's own axes.
-    pub to_sun: DVec3,
     /// Of the observer from the centre, in radii of the Moon.
     pub distance: f64,
     /// Edge of its picture, pixels, and how many of them lie along a pixel of the frame.
@@ -361,7 +359,6 @@ mod tests {
             relief: Arc::clone(&relief),
             albedo: Arc::clone(&albedo),
             body_from_disc: DMat3::IDENTITY,
-            to_sun: DVec3::X,
             distance: 220.0,
             picture_px,
             fineness: 1,
