@@ -19,8 +19,8 @@ use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
 use nocturne::light::star_light::StarLight;
 use nocturne::light::sun;
-use nocturne::plan::lay::lay_in;
-use nocturne::plan::skylight::{COMPUTED_SHAPE, KeptAir, SolvedAir};
+use nocturne::plan::lay::{Kept, lay_in};
+use nocturne::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
 use nocturne::plan::{FramePlan, SkyPlan, Splat};
 use nocturne::render::Renderer;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
@@ -116,11 +116,11 @@ fn moon(
     (setting.camera.azimuth, setting.camera.altitude) = (apparent.azimuth(), apparent.altitude());
     setting.camera.field_of_view = Angle::from_deg(field_deg);
     let layers = Layers { skylight: false, ground: false, ..Layers::default() };
-    let mut kept = KeptAir::new(Store::NONE);
+    let mut kept = Kept::new(Store::NONE);
     let mut lay = || lay_in(&setting, &layers, &night, || Ok(maps.clone()), &mut kept);
     let (plan, _) = lay()?;
     let globe = plan.discs.first().and_then(|disc| disc.globe.as_ref());
-    let triangles: u32 = globe.iter().flat_map(|globe| globe.mesh()).map(|b| b.triangles()).sum();
+    let triangles: u32 = globe.iter().flat_map(|seen| seen.globe.mesh()).map(|b| b.triangles()).sum();
     println!("The Moon in a field of {field_deg}°, 1920x1080: {triangles} triangles");
     println!("  laying it, CPU {:24.2} ms", median_ms(SLOW, lay));
     let empty = passes(renderer, &FramePlan { discs: Vec::new(), ..plan.clone() })?;
@@ -175,7 +175,7 @@ fn plan(
     )?;
     let light = || Night::of(sky.clone(), stars.clone(), &air);
     let night = light();
-    let mut kept = KeptAir::new(Store::NONE);
+    let mut kept = Kept::new(Store::NONE);
     // The air is solved once; what follows is what a second frame takes.
     let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_maps.clone()), &mut kept);
     let (plan, _) = lay()?;

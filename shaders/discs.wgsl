@@ -15,8 +15,7 @@ struct Disc {
     lowest_in_view: vec4f,
     // The same direction in local axes (east, north, up), and the length of its level part, in w.
     lowest: vec4f,
-    // Sine and cosine of the altitude of the centre, without air, the sine of the angular radius, and
-    // how far the picture of a globe reaches, in radii.
+    // Sine and cosine of the altitude of the centre, without air, and the sine of the angular radius.
     centre: vec4f,
     // From the body to the Sun, in axes of the disc: level, up, away from the observer; w is the law:
     // 0 Sun, 1 Moon, 2 Lambert.
@@ -36,6 +35,8 @@ struct Disc {
     edge: f32,
     bands: u32,
     map_width: u32,
+    // Of a globe: sine and cosine of the angle from up to its north, growing to the right.
+    north: vec4f,
 }
 
 // A disc in one band of colour.
@@ -51,6 +52,8 @@ struct Band {
 
 const SUN: u32 = 0;
 const MOON: u32 = 1;
+// Place among the nodes of what no horizon cuts.
+const UNCUT: f32 = 1e6;
 // Bands of light of a globe for each band of colour.
 const CHANNELS: u32 = 4;
 
@@ -59,10 +62,12 @@ const CHANNELS: u32 = 4;
 // Relative albedo, longitude -180 to 180 along x, latitude 90 to -90 down y.
 @group(0) @binding(2) var<storage, read> albedo: array<f32>;
 @group(0) @binding(3) var<storage, read> bands: array<Band>;
-// The globe without air, by channel, and its mean over the disc.
+// The globe without air, its north up, by channel, and its mean over the disc.
 @group(0) @binding(4) var globe: texture_2d<f32>;
 @group(0) @binding(5) var across_globe: sampler;
 @group(0) @binding(6) var<storage, read> globe_mean: vec4f;
+@group(0) @binding(7) var outline: texture_2d<f32>;
+@group(0) @binding(8) var around: sampler;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -273,10 +278,10 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) LuminanceXyzv {
 // A globe is drawn in square tiles: where it is seen and the air before it change slowly.
 struct Seen {
     @builtin(position) position: vec4f,
-    // Point of the disc in radii, and place among the nodes.
+    // Point of the picture of the globe in radii, and place among the nodes where the horizon may cut it.
     @location(0) @interpolate(linear) at: vec2f,
     @location(1) @interpolate(linear) place: f32,
-    // Light of the mean of the disc through the air, by channel.
+    // Light through the air of a surface that has one on the picture, by channel.
     @location(2) @interpolate(linear) red: vec4f,
     @location(3) @interpolate(linear) green: vec4f,
     @location(4) @interpolate(linear) blue: vec4f,
@@ -299,24 +304,28 @@ fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band
     let place = clamp(sight.place, 0.0, last);
     let node = min(u32(place), NODES - 2u);
     let along = place - f32(node);
+    // A picture of nothing has no mean.
+    let shares = select(1.0 / globe_mean, vec4f(0.0), globe_mean <= vec4f(0.0));
     var lights: array<vec4f, CHANNELS>;
     for (var channel = 0u; channel < CHANNELS; channel++) {
         let low = bands[first + channel].luminance[node];
-        lights[channel] = mix(low, bands[first + channel].luminance[node + 1u], along);
+        lights[channel] = mix(low, bands[first + channel].luminance[node + 1u], along) * shares[channel];
     }
     // Beyond the nodes the point goes on as it went.
     var at = point_at(first, Across(place, sight.sin_azimuth, sight.versine_azimuth));
     let rise = bands[first].above_centre[select(0u, NODES - 1u, sight.place > 0.0)].y;
     at.y += (sight.place - place) * rise / disc.centre.z;
-    let point = select(vec2f(9.0), at.xy, at.z < 0.5);
-    return Seen(position, point, sight.place, lights[0], lights[1], lights[2], lights[3]);
+    let turned = vec2f(at.x * disc.north.y - at.y * disc.north.x, at.x * disc.north.x + at.y * disc.north.y);
+    let point = select(vec2f(9.0), turned, at.z < 0.5);
+    let cut = select(UNCUT, sight.place, disc.samples.w == 1u);
+    return Seen(position, point, cut, lights[0], lights[1], lights[2], lights[3]);
 }
 
-// Given a point of the disc in radii, what the picture of the globe shows there.
-fn globe_at(at: vec2f) -> vec4f {
-    let flipped = vec2f(at.x, -at.y) / disc.centre.w;
+// Given a point of the disc in radii, what the picture of the globe shows there to a sample of that width.
+fn globe_at(at: vec2f, width: f32) -> vec4f {
+    let flipped = vec2f(at.x, -at.y) / EXTENT;
     let light = textureSampleLevel(globe, across_globe, 0.5 + 0.5 * flipped, 0.0);
-    return select(light, vec4f(0.0), max(abs(flipped.x), abs(flipped.y)) > 1.0);
+    return light * within_limb(outline, around, at, width);
 }
 
 @fragment
@@ -325,18 +334,20 @@ fn globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
     let right = dpdx(seen.at);
     let down = dpdy(seen.at);
     // The ground stands before what lies below the first node.
-    let over_ground = select(1.0, clamp(0.5 + seen.place / width, 0.0, 1.0), disc.samples.w == 1u);
-    if over_ground == 0.0 || length(seen.at) > disc.centre.w + length(right) + length(down) {
+    let over_ground = select(1.0, clamp(0.5 + seen.place / width, 0.0, 1.0), seen.place < UNCUT);
+    if over_ground == 0.0 || length(seen.at) > EXTENT + length(right) + length(down) {
         return vec4f(0.0);
     }
     // As many samples along a pixel as the picture has pixels there.
     let count = disc.samples.z;
+    let sample = 0.5 * (length(right) + length(down)) / f32(count);
     var sum = vec4f(0.0);
-    for (var k = 0u; k < count * count; k++) {
-        let off = (vec2f(vec2u(k % count, k / count)) + 0.5) / f32(count) - 0.5;
-        sum += globe_at(seen.at + right * off.x + down * off.y);
+    for (var row = 0u; row < count; row++) {
+        let start = seen.at + down * ((f32(row) + 0.5) / f32(count) - 0.5);
+        for (var column = 0u; column < count; column++) {
+            sum += globe_at(start + right * ((f32(column) + 0.5) / f32(count) - 0.5), sample);
+        }
     }
-    let light = sum / f32(count * count);
-    let share = select(light / globe_mean, vec4f(0.0), globe_mean <= vec4f(0.0)) * over_ground;
-    return seen.red * share.x + seen.green * share.y + seen.blue * share.z + seen.earthlit * share.w;
+    let light = sum * (over_ground / f32(count * count));
+    return seen.red * light.x + seen.green * light.y + seen.blue * light.z + seen.earthlit * light.w;
 }

@@ -1,20 +1,14 @@
 // The Moon without air, on a square picture of its own: a mesh displaced by the relief, lit by the
-// Sun and by the Earth. The picture has axes of the disc: level to the right, up; its edges lie at
-// `extent` radii of the Moon as the observer sees them.
+// Sun and by the Earth. The Moon's north is up; the edges of the picture lie at `extent` radii of the Moon
+// as the observer sees them.
 
 struct Globe {
-    // Columns: level, up and away from the observer, in the Moon's own axes.
-    body_from_disc: mat3x3f,
+    // Columns: right, up and away from the observer, in the Moon's own axes.
+    body_from_picture: mat3x3f,
     // Columns: two axes across and the direction of the Sun, in the Moon's own axes.
     body_from_sun: mat3x3f,
-    // Of the observer, in radii of the Moon.
-    distance: f32,
-    extent: f32,
-    // Angles from the subsolar point, of the first and last row of the shadows.
-    first_shadow: Radians,
-    last_shadow: Radians,
-    // Single-scattering albedo over that at 566 nm, by colour.
-    darkness: vec4f,
+    // Of the observer from the centre, in the Moon's own axes and its radii; in w how far he is.
+    observer: vec4f,
     // In an eclipse, in radii of the Moon and its own axes: towards the Sun, in w the angle between Sun and
     // Earth at the rim of the Earth's shadow; towards the Earth, in w its distance.
     sun: vec4f,
@@ -27,42 +21,55 @@ struct MeshBand {
     last: Radians,
     rings: u32,
     sectors: u32,
+    // Whether its last ring is drawn out over the limb, behind all else.
+    is_skirt: u32,
 }
 
-@group(0) @binding(0) var<storage, read> globe: Globe;
+// Only reckoned with: a branch that hung on it would have the software driver compile the shader anew.
+@group(0) @binding(0) var<uniform> globe: Globe;
 @group(0) @binding(1) var<storage, read> band: MeshBand;
-// Slope of the ground to the east and to the north, and elevation in radii of the Moon.
+// The near side, stereographic: slopes of the ground along the two axes of the map, elevation in radii of the
+// Moon, reflectance at 566 nm.
 @group(0) @binding(2) var relief: texture_2d<f32>;
-// Reflectances at 643, 566 and 415 nm.
-@group(0) @binding(3) var albedo: texture_2d<f32>;
+// The near side: reflectances at 643 and 415 nm over that at 566 nm, less the least.
+@group(0) @binding(3) var colours: texture_2d<f32>;
+@group(0) @binding(4) var across_near_side: sampler;
 // The share of the Sun's disc that is seen, by azimuth around the subsolar point and angle from it.
-@group(0) @binding(4) var shadows: texture_2d<f32>;
-@group(0) @binding(5) var across_maps: sampler;
-// By colour, what grains scatter once over the reflectance, and a quarter of what they scatter often; in
-// w of the first the single-scattering albedo at 566 nm.
+@group(0) @binding(5) var shadows: texture_2d<f32>;
+// By colour, what the ground scatters once and often over its reflectance, west to east and north to south.
 @group(0) @binding(6) var once: texture_2d<f32>;
 @group(0) @binding(7) var often: texture_2d<f32>;
-// What roughness makes of the cosines of incidence, along x, and emission, along y, at nodes in steps of
-// their roots: effective cosines, and the light that is left.
-@group(0) @binding(8) var facets: texture_2d<f32>;
-@group(0) @binding(9) var across_facets: sampler;
+@group(0) @binding(8) var around: sampler;
+// What multiplies the one and the other, by the roots of the cosines of incidence, along x, and emission.
+@group(0) @binding(9) var by_directions: texture_2d<f32>;
 // What the Earth leaves of the Sun's light, by colour, from the axis of its shadow to the rim.
 @group(0) @binding(10) var umbra: texture_2d<f32>;
+
+// How far the skirt is drawn out, and its depth.
+const SKIRT: f32 = 1.03;
+const BEHIND: f32 = 0.999;
+// Of the angle between the ground and the sight.
+const LEAST_COSINE: f32 = 0.05;
 
 struct Ground {
     @builtin(position) position: vec4f,
     // Outward direction of the smooth globe, in the Moon's own axes.
     @location(0) normal: vec3f,
     // What the law says of the ground around: no finer than the mesh.
-    @location(1) once: vec4f,
+    @location(1) once: vec3f,
     @location(2) often: vec3f,
 }
 
-// Given a direction in the Moon's own axes, its place on the maps: west to east, north to south.
+// Given a direction in the Moon's own axes, its place on maps of all of it: west to east, north to south.
 fn on_map(normal: vec3f) -> vec2f {
     let longitude = atan2(normal.y, normal.x);
     let latitude = atan2(normal.z, length(normal.xy));
     return vec2f(0.5 + longitude / (2.0 * PI), 0.5 - latitude / PI);
+}
+
+// Given a direction in the Moon's own axes, its place on the maps of the near side.
+fn on_near_side(normal: vec3f) -> vec2f {
+    return 0.5 + vec2f(normal.y, -normal.z) * (0.5 / (MAP_EDGE * (1.0 + normal.x)));
 }
 
 // Given the number of a corner, ring by ring.
@@ -72,86 +79,89 @@ fn vertex(@builtin(vertex_index) index: u32) -> Ground {
     let theta = mix(band.first, band.last, f32(index / corners) / f32(band.rings));
     let turn = 2.0 * PI * f32(index % corners) / f32(band.sectors);
     let out = vec3f(sin(theta) * cos(turn), sin(theta) * sin(turn), -cos(theta));
-    let normal = globe.body_from_disc * out;
+    let normal = globe.body_from_picture * out;
+    let elevation = textureSampleLevel(relief, across_near_side, on_near_side(normal), 0.0).z;
     let at = on_map(normal);
-    let elevation = textureSampleLevel(relief, across_maps, at, 0.0).z;
-    let single = textureSampleLevel(once, across_maps, at, 0.0);
-    let multiple = textureSampleLevel(often, across_maps, at, 0.0).xyz;
+    let single = textureSampleLevel(once, around, at, 0.0).xyz;
+    let multiple = textureSampleLevel(often, around, at, 0.0).xyz;
     let place = out * (1.0 + elevation);
-    let from_observer = place + vec3f(0.0, 0.0, globe.distance);
+    let distance = globe.observer.w;
+    let from_observer = place + vec3f(0.0, 0.0, distance);
     let away = length(from_observer);
-    let seen = place.xy * (globe.distance / away);
+    let is_skirt = band.is_skirt == 1u;
+    let reach = select(1.0, SKIRT, is_skirt && index / corners == band.rings);
+    let seen = place.xy * (distance / away * reach / EXTENT);
     // From in front of the nearest mountain to behind the centre.
-    let depth = (away - globe.distance + 1.02) / 1.2;
-    return Ground(vec4f(seen / globe.extent, depth, 1.0), normal, single, multiple);
+    let depth = select((away - distance + 1.02) / 1.2, BEHIND, is_skirt);
+    return Ground(vec4f(seen, depth, 1.0), normal, single, multiple);
 }
 
 // The share of the Sun that is seen from a point of the globe.
 fn sunlit(in_sun: vec3f) -> f32 {
-    if in_sun.z >= cos(globe.first_shadow) {
+    if in_sun.z >= COS_FIRST_SHADOW {
         return 1.0;
     }
-    if in_sun.z <= cos(globe.last_shadow) {
+    if in_sun.z <= COS_LAST_SHADOW {
         return 0.0;
     }
     let angle = acos(in_sun.z);
     let size = vec2f(textureDimensions(shadows));
     let turn = atan2(in_sun.y, in_sun.x) / (2.0 * PI);
-    let row = (angle - globe.first_shadow) / (globe.last_shadow - globe.first_shadow);
+    let row = (angle - FIRST_SHADOW) / (LAST_SHADOW - FIRST_SHADOW);
     // Values belong to the nodes: the middles of the texels.
     let at = vec2f(fract(turn) + 0.5 / size.x, (row * (size.y - 1.0) + 0.5) / size.y);
-    return textureSampleLevel(shadows, across_maps, at, 0.0).x;
+    return textureSampleLevel(shadows, around, at, 0.0).x;
 }
 
 // What the Earth leaves of the Sun's light at a point of the globe, by colour.
 fn beside_earth(outward: vec3f) -> vec3f {
-    if globe.sun.w == 0.0 {
+    let size = f32(textureDimensions(umbra).x);
+    if size == 1.0 {
         return vec3f(1.0);
     }
     let to_earth = globe.earth.xyz - outward;
     let away = length(to_earth);
     // A point nearer to the Earth sees it larger.
     let chord = length(normalize(globe.sun.xyz - outward) - to_earth / away) * (away / globe.earth.w);
-    let size = f32(textureDimensions(umbra).x);
     let at = min(chord / globe.sun.w, 1.0) * ((size - 1.0) / size) + 0.5 / size;
-    return textureSampleLevel(umbra, across_facets, vec2f(at, 0.5), 0.0).xyz;
+    return textureSampleLevel(umbra, across_near_side, vec2f(at, 0.5), 0.0).xyz;
 }
 
-// Chandrasekhar's function, by colour, in Hapke's approximation; dim is the root of 1 - w.
-fn h_function(cosine: f32, dim: vec3f) -> vec3f {
-    return (1.0 + 2.0 * cosine) / (1.0 + 2.0 * cosine * dim);
-}
-
-// The radiance factor over the reflectance, by colour: Hapke 2012, see src/light/moon/hapke.rs.
+// The radiance factor over the reflectance, by colour: see src/plan/globe/ground.rs.
 fn law(ground: Ground, cos_incidence: f32, cos_emission: f32) -> vec3f {
-    let size = f32(textureDimensions(facets).x);
+    let size = f32(textureDimensions(by_directions).x);
     let node = sqrt(vec2f(cos_incidence, cos_emission)) * ((size - 1.0) / size) + 0.5 / size;
-    let facet = textureSampleLevel(facets, across_facets, node, 0.0);
-    let dim = sqrt(max(1.0 - ground.once.w * globe.darkness.xyz, vec3f(0.0)));
-    let again = h_function(facet.x, dim) * h_function(facet.y, dim) - 1.0;
-    return (ground.once.xyz + ground.often * again) * (facet.x / (facet.x + facet.y) * facet.z);
+    let lit = textureSampleLevel(by_directions, across_near_side, node, 0.0).xy;
+    return ground.once * lit.x + ground.often * lit.y;
 }
 
 @fragment
 fn fragment(ground: Ground) -> @location(0) vec4f {
     let outward = normalize(ground.normal);
-    let at = on_map(outward);
-    let slopes = textureSampleLevel(relief, across_maps, at, 0.0).xy;
-    let reflectance = textureSampleLevel(albedo, across_maps, at, 0.0).xyz;
-    let level = max(length(outward.xy), 1e-6);
-    let east = vec3f(-outward.y, outward.x, 0.0) / level;
-    let north = cross(outward, east);
-    let normal = normalize(outward - east * slopes.x - north * slopes.y);
-    let observer = -globe.body_from_disc[2] * globe.distance;
-    let cos_emission = max(dot(normal, normalize(observer - outward)), 0.02);
-    let in_sun = outward * globe.body_from_sun;
-    let cos_incidence = max(dot(normal, globe.body_from_sun[2]), 0.0);
+    let at = on_near_side(outward);
+    let soil = textureSampleLevel(relief, across_near_side, at, 0.0);
     // The Earth stands behind the observer: its light comes back the way it went.
-    let earthlit = 0.5 * reflectance.y;
-    let sun = sunlit(in_sun);
-    if cos_incidence <= 0.0 || sun == 0.0 {
+    let earthlit = 0.5 * soil.w;
+    let sun = sunlit(outward * globe.body_from_sun);
+    if sun == 0.0 {
         return vec4f(vec3f(0.0), earthlit);
     }
+    // Along the axes of the map, see src/plan/globe/near_side.rs.
+    let bent = outward.yz / (1.0 + outward.x);
+    let along = vec3f(-outward.y, 1.0 - bent.x * outward.y, -bent.x * outward.z);
+    let up = vec3f(-outward.z, -bent.y * outward.y, 1.0 - bent.y * outward.z);
+    let sloping = normalize(outward - along * soil.x - up * soil.y);
+    // Slopes are finer than the mesh: what would face away from the observer is not what he sees there.
+    let to_observer = normalize(globe.observer.xyz - outward);
+    let hidden = max(LEAST_COSINE - dot(sloping, to_observer), 0.0);
+    let normal = normalize(sloping + to_observer * hidden);
+    let cos_incidence = dot(normal, globe.body_from_sun[2]);
+    if cos_incidence <= 0.0 {
+        return vec4f(vec3f(0.0), earthlit);
+    }
+    let cos_emission = max(dot(normal, to_observer), LEAST_COSINE);
+    let ratios = textureSampleLevel(colours, across_near_side, at, 0.0).xy + vec2f(LEAST_RED, LEAST_BLUE);
+    let reflectance = soil.w * vec3f(ratios.x, 1.0, ratios.y);
     let light = beside_earth(outward) * sun;
     return vec4f(reflectance * law(ground, cos_incidence, cos_emission) * light, earthlit);
 }

@@ -1,4 +1,5 @@
-// The mean light of the picture of a globe over a disc of radius one: tiles are summed, then the tiles.
+// The mean light of the picture of a globe over a disc of radius one, as far as it is within the outline:
+// tiles are summed, then the tiles.
 
 struct Mean {
     // Area of a pixel in discs of radius one.
@@ -12,6 +13,8 @@ const TILE: u32 = 64;
 @group(0) @binding(1) var<storage, read> mean: Mean;
 @group(0) @binding(2) var<storage, read_write> sums: array<vec4f>;
 @group(0) @binding(3) var<storage, read_write> result: array<vec4f>;
+@group(0) @binding(4) var outline: texture_2d<f32>;
+@group(0) @binding(5) var around: sampler;
 
 var<workgroup> parts: array<vec4f, 64>;
 
@@ -35,12 +38,15 @@ fn sum_tile(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let size = textureDimensions(picture);
+    let pixel = 2.0 / vec2f(size);
     let y = tile.y * TILE + thread;
     var part = vec4f(0.0);
     if y < size.y {
         let end = min(tile.x * TILE + TILE, size.x);
         for (var x = tile.x * TILE; x < end; x++) {
-            part += textureLoad(picture, vec2u(x, y), 0);
+            let at = EXTENT * ((vec2f(f32(x), f32(y)) + 0.5) * pixel - 1.0);
+            let share = within_limb(outline, around, vec2f(at.x, -at.y), EXTENT * pixel.x);
+            part += share * textureLoad(picture, vec2u(x, y), 0);
         }
     }
     let all = gathered(thread, part);

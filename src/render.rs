@@ -9,6 +9,7 @@ pub mod uniforms;
 
 mod discs;
 mod globe;
+mod globe_maps;
 mod sky;
 pub mod sky_tiles;
 mod splats;

@@ -5,7 +5,7 @@ use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
-use nocturne::plan::lay::{lay, lay_in};
+use nocturne::plan::lay::{Kept, lay, lay_in};
 use nocturne::plan::ledger::Ledger;
 use nocturne::plan::skylight::{KeptAir, Origin, SolvedAir};
 use nocturne::plan::{FramePlan, SKY_SHAPE, skylight};
@@ -228,16 +228,16 @@ fn air_is_solved_once_and_the_ledger_says_so() {
     let scene = at("2026-01-18T19:30:00Z");
     let night = night_of(&scene);
     let setting = scene.setting().unwrap();
-    let origin = |kept: &mut KeptAir| {
+    let origin = |kept: &mut Kept| {
         let map = || unreachable!("the Moon is a point or hidden");
         let layers = Layers { moon: false, ..scene.layers };
         let (_, ledger) = lay_in(&setting, &layers, &night, map, kept).unwrap();
         ledger.of("sunlit air").unwrap().how.clone()
     };
-    let mut kept = KeptAir::new(store.clone());
+    let mut kept = Kept::new(store.clone());
     assert_eq!(origin(&mut kept), ["tables of the air: from solving it now"]);
     assert_eq!(origin(&mut kept), ["tables of the air: from the frame before"]);
-    assert_eq!(origin(&mut KeptAir::new(store)), ["tables of the air: from the store"]);
+    assert_eq!(origin(&mut Kept::new(store)), ["tables of the air: from the store"]);
 }
 
 #[test]

@@ -74,7 +74,8 @@ fn uniforms_have_one_layout_on_both_sides() {
             per_step,
             edge,
             bands,
-            map_width
+            map_width,
+            north
         ]
     );
     same_layout!(discs, "Band", DiscBandUniform, [limb, luminance, above_centre]);

@@ -31,14 +31,13 @@ pub fn draw(
     progress: &mut Progress,
 ) -> Result<Drawn, CliError> {
     use crate::overlay;
-    use crate::plan::lay::lay_in;
-    use crate::plan::skylight::KeptAir;
+    use crate::plan::lay::{Kept, lay_in};
     use crate::render::Renderer;
     use crate::store::Store;
 
     // Whether anything can be drawn is known soon, so ask before the long work.
     let renderer = progress.step("graphics adapter", Renderer::new)?;
-    let mut kept = KeptAir::new(Store::of_user());
+    let mut kept = Kept::new(Store::of_user());
     let (plan, ledger) = progress.step("light and air", || {
         lay_in(setting, &scene.layers, night, || catalogs.moon_maps(), &mut kept)
     })?;

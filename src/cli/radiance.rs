@@ -21,8 +21,7 @@ use crate::catalog::Catalogs;
 use crate::export::OutputFile;
 use crate::export::table::{Cell, Column, Format, Kind, Sheet as Table, TableWriter};
 use crate::frame::Dir;
-use crate::plan::lay::lay_in;
-use crate::plan::skylight::KeptAir;
+use crate::plan::lay::{Kept, lay_in};
 use crate::scene::Layers;
 use crate::store::Store;
 
@@ -224,7 +223,7 @@ fn of_scene(
         catalogs,
     )?;
     let layers = Layers { sun: false, moon: false, planets: false, stars: false, ..scene.layers };
-    let mut kept = KeptAir::new(Store::of_user());
+    let mut kept = Kept::new(Store::of_user());
     let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_maps(), &mut kept)?;
     let dirs: Vec<_> = directions
         .into_iter()

@@ -1,7 +1,6 @@
 //! The Sun, the Moon and planets as the camera has them: as a point, a few points, or a disc.
 
 use std::f64::consts::FRAC_PI_2;
-use std::sync::Arc;
 
 use glam::DMat3;
 
@@ -12,15 +11,16 @@ use crate::catalog::{MoonMap, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
-use crate::light::moon::{MoonSurface, Reflectance, bands};
+use crate::light::moon::{Reflectance, bands};
 use crate::light::night::{LitObject, Night};
 use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
-use crate::units::{Angle, MOON_RADIUS_KM, SUN_RADIUS_KM, Xyzv};
+use crate::units::{Angle, SUN_RADIUS_KM, Xyzv};
 
 use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
-use super::globe::{CHANNELS, EXTENT, Globe, Ground, Shadows, UmbraTable};
+use super::globe::umbra::UmbraTable;
+use super::globe::{CHANNELS, GlobeView, KeptGlobe, SeenGlobe};
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -33,8 +33,6 @@ const COARSE_PX: f64 = 48.0;
 /// Samples in a pixel, inside a large disc and at edges.
 const INSIDE: Lattice = Lattice { points: 5, turn: 3 };
 const EDGE: Lattice = Lattice { points: 34, turn: 21 };
-/// Edge of the largest picture of a globe.
-const LARGEST_PICTURE_PX: f64 = 4096.0;
 /// Samples are those of an edge within this many pixels of it: the scale of a picture may differ by
 /// half along and across.
 const EDGE_PX: f64 = 2.5;
@@ -252,37 +250,33 @@ impl<'a> SeenBody<'a> {
     }
 
     /// The globe of the Moon; none where it is not drawn as one.
-    pub fn globe(&self, surface: &MoonMaps, law: Reflectance) -> Option<Globe> {
+    pub fn globe(
+        &self,
+        maps: &MoonMaps,
+        law: Reflectance,
+        kept: &mut KeptGlobe,
+    ) -> Option<SeenGlobe> {
         if !self.is_globe() {
             return None;
         }
-        let [level, up, away] = disc_axes(self.state.dir);
-        let body_from_horizon = self.night.sky.moon.horizon_from_moon_fixed.inverse().matrix();
-        let to_sun = body_from_horizon * self.state.dir_to_sun.vector();
-        let sun_radius = Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin());
-        // Of a small disc the limb is most; of a large one a pixel is as fine as the maps.
-        let fineness = match self.across_px() {
-            small if small < 64.0 => 4,
-            medium if medium < 300.0 => 2,
-            _ => 1,
-        };
-        let picture_px = self.across_px() * EXTENT * f64::from(fineness);
-        let picture_px = picture_px.ceil().clamp(16.0, LARGEST_PICTURE_PX) as u32;
-        let radius_px = picture_px.div_ceil(2) as usize;
-        let ground = MoonSurface::new(&surface.albedo, &surface.hapke);
-        let shadows = Shadows::cast(&surface.relief, to_sun, sun_radius, radius_px);
-        Some(Globe {
-            relief: Arc::clone(&surface.relief),
-            albedo: Arc::clone(&surface.albedo),
-            body_from_disc: body_from_horizon * DMat3::from_cols(level, up, away),
-            distance: self.state.distance_km / MOON_RADIUS_KM,
-            picture_px,
-            fineness,
-            shadow: self.night.eclipse.moon.as_ref().map(|eclipsed| {
+        let horizon_from_body = self.night.sky.moon.horizon_from_moon_fixed.matrix();
+        let body_from_horizon = horizon_from_body.transpose();
+        let view = GlobeView::of(
+            law,
+            self.across_px(),
+            self.state.distance_km,
+            [-self.state.dir.vector(), self.state.dir_to_sun.vector()].map(|v| body_from_horizon * v),
+            Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin()),
+            self.night.eclipse.moon.as_ref().map(|eclipsed| {
                 UmbraTable::of(&eclipsed.shadow, &eclipsed.place, &body_from_horizon)
             }),
-            ground: Arc::new(Ground::at_phase(law, &ground, self.state.phase_angle)),
-            shadows: Arc::new(shadows),
+        );
+        let [level, up, _] = disc_axes(self.state.dir);
+        let north = horizon_from_body.z_axis;
+        Some(SeenGlobe {
+            globe: kept.of(view, maps),
+            north: Angle::from_rad(north.dot(level).atan2(north.dot(up))),
+            radius_px: 0.5 * self.across_px(),
         })
     }
 
@@ -372,7 +366,7 @@ impl<'a> SeenBody<'a> {
     pub fn disc(
         &self,
         shape: DiscShape,
-        globe: Option<Globe>,
+        globe: Option<SeenGlobe>,
         air: &DiscAir,
         bounds_px: [[f64; 2]; 2],
     ) -> Disc {

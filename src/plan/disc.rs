@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3};
 use crate::frame::{Apparent, Dir, Horizon, View};
 use crate::units::{Angle, Xyzv};
 
-use super::globe::{CHANNELS, Globe};
+use super::globe::{CHANNELS, SeenGlobe};
 
 /// Number of altitudes across a disc at which the air is looked through.
 pub const NODES: usize = 33;
@@ -111,7 +111,7 @@ pub struct Disc {
     /// Whether the lowest node is where the ground begins.
     pub is_cut_by_horizon: bool,
     /// What its surface looks like, if not like its shape.
-    pub globe: Option<Globe>,
+    pub globe: Option<SeenGlobe>,
     /// Samples in a pixel: inside the disc, and near its edges.
     pub samples: [Lattice; 2],
     /// How far from an edge the samples are those of the edge, in radii of the disc.

@@ -13,6 +13,7 @@ use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
 use super::classic::ClassicLight;
+use super::globe::KeptGlobe;
 use super::ledger::Ledger;
 use super::skylight::{self, KeptAir, Origin, Shines};
 use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
@@ -39,6 +40,19 @@ const BEHIND_JUPITER: &str = "behind Jupiter";
 /// Its disc is about as bright as theirs.
 const BEFORE_JUPITER: &str = "before the disc of Jupiter";
 
+/// What frames in a row share: the solved air, the globe of the Moon.
+pub struct Kept {
+    pub air: KeptAir,
+    pub globe: KeptGlobe,
+}
+
+impl Kept {
+    /// Nothing yet, but for air in a store.
+    pub fn new(store: Store) -> Kept {
+        Kept { air: KeptAir::new(store), globe: KeptGlobe::default() }
+    }
+}
+
 /// Makes the plan of a frame and the ledger of what is in it. The Moon's maps are asked for only if
 /// the Moon shows a disc.
 pub fn lay(
@@ -47,22 +61,21 @@ pub fn lay(
     night: &Night,
     moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
 ) -> Result<(FramePlan, Ledger), PlanError> {
-    lay_in(setting, layers, night, moon, &mut KeptAir::new(Store::NONE))
+    lay_in(setting, layers, night, moon, &mut Kept::new(Store::NONE))
 }
 
-/// The same with the solved air of a frame before, which is used again if it is this air, or else the
-/// air that was stored.
+/// The same with what a frame before made, which is used again where it is the same.
 pub fn lay_in(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
     moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
-    kept: &mut KeptAir,
+    kept: &mut Kept,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
     let mut ledger = Ledger::default();
     let classic = setting.sky.map(|sky| ClassicLight::of(&sky, night)).transpose()?;
-    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, kept)?;
+    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, &mut kept.air)?;
     let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
     let mut moon = Some(moon);
 
@@ -80,7 +93,7 @@ pub fn lay_in(
                     Some(read) => read().map(Some),
                     None => Ok(None),
                 };
-                lay_body(&seen, surface, setting.reflectance, &mut plan)?
+                lay_body(&seen, surface, setting.reflectance, &mut plan, &mut kept.globe)?
             }
             None => match lay_point(&camera, object.apparent, object.ground, &mut plan.splats) {
                 true => Laid::Points,
@@ -232,6 +245,7 @@ fn lay_body(
     moon: impl FnOnce() -> Result<Option<MoonMaps>, CatalogError>,
     law: Reflectance,
     plan: &mut FramePlan,
+    kept: &mut KeptGlobe,
 ) -> Result<Laid, PlanError> {
     let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };
     if seen.is_point() {
@@ -244,15 +258,16 @@ fn lay_body(
     let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
     let Some(air) = seen.air() else { return Ok(Laid::Not(BELOW_HORIZON)) };
     let surface = if seen.is_moon() { moon()? } else { None };
-    let shape = seen.shape(surface.as_ref());
     if seen.is_small() {
+        let shape = seen.shape(surface.as_ref());
         let mut any = false;
         for (apparent, light) in seen.points(&shape, &air) {
             any |= lay_point(&plan.camera, apparent, light, &mut plan.splats);
         }
         return Ok(points(any));
     }
-    let globe = surface.as_ref().and_then(|surface| seen.globe(surface, law));
+    let shape = seen.shape(None);
+    let globe = surface.as_ref().and_then(|surface| seen.globe(surface, law, kept));
     plan.discs.push(seen.disc(shape, globe, &air, bounds_px));
     Ok(Laid::Disc { bands: air.bands() })
 }

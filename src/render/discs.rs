@@ -1,7 +1,7 @@
 //! Bodies that show a disc: a lit sphere seen through the air.
 
 use crate::plan::disc::{Disc, SurfaceLaw};
-use crate::plan::globe::Globe;
+use crate::plan::globe::SeenGlobe;
 
 use super::globe::{GlobePass, lattice_indices};
 use super::gpu::Gpu;
@@ -63,10 +63,10 @@ impl DiscPass {
         &self,
         frame: &mut Target,
         disc: &Disc,
-        globe: &Globe,
+        seen: &SeenGlobe,
         [uniform, bands]: [&wgpu::Buffer; 2],
     ) {
-        let picture = self.globe.draw(frame, globe);
+        let picture = self.globe.picture(frame, &seen.globe);
         let group = frame.gpu.bind_mixed(
             &self.globes.get_bind_group_layout(0),
             &[
@@ -76,6 +76,8 @@ impl DiscPass {
                 (4, wgpu::BindingResource::TextureView(&picture.view)),
                 (5, wgpu::BindingResource::Sampler(&self.across_picture)),
                 (6, picture.mean.as_entire_binding()),
+                (7, wgpu::BindingResource::TextureView(&picture.outline)),
+                (8, wgpu::BindingResource::Sampler(&self.globe.around)),
             ],
         );
         let [_, columns, rows] = globe_tiles(disc);

@@ -2,13 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use half::f16;
+use crate::plan::globe::{EXTENT, Globe};
 
-use crate::catalog::{MoonMap, MoonRelief};
-use crate::light::moon::surface::PhaseCell;
-use crate::plan::globe::{EXTENT, Globe, Ground, Shadows, UmbraTable};
-use crate::units::MOON_RADIUS_KM;
-
+use super::globe_maps::{NearSideMaps, ground_textures, outline_texture, shadows_texture, umbra_texture};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
@@ -23,24 +19,25 @@ pub struct GlobePass {
     mesh: wgpu::RenderPipeline,
     sum_tile: wgpu::ComputePipeline,
     sum_all: wgpu::ComputePipeline,
-    across_maps: wgpu::Sampler,
-    across_facets: wgpu::Sampler,
-    maps: Mutex<Option<Maps>>,
+    across: wgpu::Sampler,
+    pub around: wgpu::Sampler,
+    last: Mutex<Option<Last>>,
 }
 
-/// The maps of the last globe, as it was drawn.
-#[derive(Clone)]
-struct Maps {
-    relief: (Arc<MoonRelief>, u32, wgpu::TextureView),
-    albedo: (Arc<MoonMap>, u32, wgpu::TextureView),
-    shadows: (Arc<Shadows>, wgpu::TextureView),
+/// The last globe that was drawn, and its maps.
+struct Last {
+    globe: Arc<Globe>,
+    maps: NearSideMaps,
+    picture: GlobePicture,
 }
 
 /// A globe that was drawn.
+#[derive(Clone)]
 pub struct GlobePicture {
     pub view: wgpu::TextureView,
     /// The mean of its light over a disc of radius one.
     pub mean: wgpu::Buffer,
+    pub outline: wgpu::TextureView,
 }
 
 impl GlobePass {
@@ -55,16 +52,35 @@ impl GlobePass {
             ),
             sum_tile: gpu.compute_pipeline("sum_tile", &mean),
             sum_all: gpu.compute_pipeline("sum_all", &mean),
-            across_maps: gpu.linear_sampler(wgpu::AddressMode::Repeat),
-            across_facets: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
-            maps: Mutex::new(None),
+            across: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
+            around: gpu.linear_sampler(wgpu::AddressMode::Repeat),
+            last: Mutex::new(None),
         }
     }
 
-    pub fn draw(&self, frame: &mut Target, globe: &Globe) -> GlobePicture {
+    /// The picture of a globe; drawn unless it was the last one.
+    pub fn picture(&self, frame: &mut Target, globe: &Arc<Globe>) -> GlobePicture {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(last) = last.as_ref().filter(|last| Arc::ptr_eq(&last.globe, globe)) {
+            return last.picture.clone();
+        }
+        let are_same = |last: &&Last| {
+            Arc::ptr_eq(&last.globe.relief, &globe.relief)
+                && Arc::ptr_eq(&last.globe.albedo, &globe.albedo)
+        };
+        let maps = match last.as_ref().filter(are_same) {
+            Some(last) => last.maps.clone(),
+            None => NearSideMaps::new(frame.gpu, &globe.relief, &globe.albedo),
+        };
+        let picture = self.draw(frame, globe, &maps);
+        let drawn = Last { globe: Arc::clone(globe), maps, picture: picture.clone() };
+        *last = Some(drawn);
+        picture
+    }
+
+    fn draw(&self, frame: &mut Target, globe: &Globe, maps: &NearSideMaps) -> GlobePicture {
         let gpu = frame.gpu;
-        let maps = self.maps(gpu, globe);
-        let px = globe.picture_px;
+        let px = globe.view.picture_px;
         let texture = |label, format, usage| {
             let size = wgpu::Extent3d { width: px, height: px, depth_or_array_layers: 1 };
             gpu.texture(label, size, format, usage | wgpu::TextureUsages::RENDER_ATTACHMENT)
@@ -72,9 +88,12 @@ impl GlobePass {
         let binding = wgpu::TextureUsages::TEXTURE_BINDING;
         let picture = texture("globe", PICTURE_FORMAT, binding).create_view(&Default::default());
         let depth = texture("depth of the globe", DEPTH_FORMAT, wgpu::TextureUsages::empty());
-        let uniform = storage(gpu, "globe", bytemuck::bytes_of(&GlobeUniform::of(globe)));
-        let [once, often, facets] = ground_textures(gpu, &globe.ground);
-        let umbra = umbra_texture(gpu, globe.shadow.as_ref());
+        let uniform = GlobeUniform::of(globe);
+        let usage = wgpu::BufferUsages::UNIFORM;
+        let uniform = gpu.buffer("globe", bytemuck::bytes_of(&uniform), usage);
+        let [once, often, by_directions] = ground_textures(gpu, &globe.ground);
+        let shadows = shadows_texture(gpu, &globe.shadows);
+        let umbra = umbra_texture(gpu, globe.view.shadow.as_ref());
         let bands = globe.mesh().map(|band| {
             let buffer = storage(gpu, "band", bytemuck::bytes_of(&MeshBandUniform::of(&band)));
             let group = bind(
@@ -83,14 +102,14 @@ impl GlobePass {
                 &[
                     uniform.as_entire_binding(),
                     buffer.as_entire_binding(),
-                    wgpu::BindingResource::TextureView(&maps.relief.2),
-                    wgpu::BindingResource::TextureView(&maps.albedo.2),
-                    wgpu::BindingResource::TextureView(&maps.shadows.1),
-                    wgpu::BindingResource::Sampler(&self.across_maps),
+                    wgpu::BindingResource::TextureView(&maps.relief),
+                    wgpu::BindingResource::TextureView(&maps.colours),
+                    wgpu::BindingResource::Sampler(&self.across),
+                    wgpu::BindingResource::TextureView(&shadows),
                     wgpu::BindingResource::TextureView(&once),
                     wgpu::BindingResource::TextureView(&often),
-                    wgpu::BindingResource::TextureView(&facets),
-                    wgpu::BindingResource::Sampler(&self.across_facets),
+                    wgpu::BindingResource::Sampler(&self.around),
+                    wgpu::BindingResource::TextureView(&by_directions),
                     wgpu::BindingResource::TextureView(&umbra),
                 ],
             );
@@ -108,14 +127,21 @@ impl GlobePass {
                 pass.draw_indexed(0..*count, 0, 0..1);
             }
         });
-        let mean = self.mean(frame, globe, &picture);
-        GlobePicture { view: picture, mean }
+        let outline = outline_texture(gpu, &globe.limb);
+        let mean = self.mean(frame, globe, &picture, &outline);
+        GlobePicture { view: picture, mean, outline }
     }
 
-    fn mean(&self, frame: &mut Target, globe: &Globe, picture: &wgpu::TextureView) -> wgpu::Buffer {
+    fn mean(
+        &self,
+        frame: &mut Target,
+        globe: &Globe,
+        picture: &wgpu::TextureView,
+        outline: &wgpu::TextureView,
+    ) -> wgpu::Buffer {
         let gpu = frame.gpu;
-        let tiles = globe.picture_px.div_ceil(TILE_PX);
-        let pixel = 2.0 * EXTENT / f64::from(globe.picture_px);
+        let tiles = globe.view.picture_px.div_ceil(TILE_PX);
+        let pixel = 2.0 * EXTENT / f64::from(globe.view.picture_px);
         let share = pixel * pixel / std::f64::consts::PI;
         let uniform = MeanUniform { pixel_share: share as f32, tiles: tiles * tiles };
         let uniform = storage(gpu, "mean", bytemuck::bytes_of(&uniform));
@@ -124,7 +150,7 @@ impl GlobePass {
         let result = storage(gpu, "mean light of the globe", bytemuck::bytes_of(&[0.0f32; 4]));
         let tile = gpu.bind_mixed(
             &self.sum_tile.get_bind_group_layout(0),
-            &[(0, wgpu::BindingResource::TextureView(picture)), (2, sums.as_entire_binding())],
+            &[(0, wgpu::BindingResource::TextureView(picture)), (2, sums.as_entire_binding()), (4, wgpu::BindingResource::TextureView(outline)), (5, wgpu::BindingResource::Sampler(&self.around))],
         );
         let all = gpu.bind(
             &self.sum_all.get_bind_group_layout(0),
@@ -139,42 +165,6 @@ impl GlobePass {
             pass.dispatch_workgroups(1, 1, 1);
         });
         result
-    }
-
-    /// The maps of a globe; those that the last one had are not sent again.
-    fn maps(&self, gpu: &Gpu, globe: &Globe) -> Maps {
-        let mut kept = self.maps.lock().unwrap_or_else(PoisonError::into_inner);
-        let last = kept.take();
-        let (relief_level, albedo_level) = (globe.relief_level(), globe.albedo_level());
-        let relief = last.as_ref().map(|maps| &maps.relief).filter(|(relief, level, _)| {
-            Arc::ptr_eq(relief, &globe.relief) && *level == relief_level
-        });
-        let albedo = last.as_ref().map(|maps| &maps.albedo).filter(|(albedo, level, _)| {
-            Arc::ptr_eq(albedo, &globe.albedo) && *level == albedo_level
-        });
-        let shadows = last
-            .as_ref()
-            .map(|maps| &maps.shadows)
-            .filter(|(shadows, _)| Arc::ptr_eq(shadows, &globe.shadows));
-        let maps = Maps {
-            relief: relief.cloned().unwrap_or_else(|| {
-                let view = relief_texture(gpu, &globe.relief, relief_level);
-                (Arc::clone(&globe.relief), relief_level, view)
-            }),
-            albedo: albedo.cloned().unwrap_or_else(|| {
-                let view = albedo_texture(gpu, &globe.albedo, albedo_level);
-                (Arc::clone(&globe.albedo), albedo_level, view)
-            }),
-            shadows: shadows.cloned().unwrap_or_else(|| {
-                let texels = globe.shadows.sunlit.iter().map(|share| (255.0 * share).round() as u8);
-                let size = [globe.shadows.columns, globe.shadows.rows].map(|n| n as u32);
-                let format = wgpu::TextureFormat::R8Unorm;
-                let view = map_texture(gpu, "shadows", size, format, &texels.collect::<Vec<u8>>());
-                (Arc::clone(&globe.shadows), view)
-            }),
-        };
-        *kept = Some(maps.clone());
-        maps
     }
 }
 
@@ -202,107 +192,4 @@ fn bind(
     resources: &[wgpu::BindingResource],
 ) -> wgpu::BindGroup {
     gpu.bind_mixed(layout, &(0..).zip(resources.iter().cloned()).collect::<Vec<_>>())
-}
-
-fn map_texture(
-    gpu: &Gpu,
-    label: &str,
-    [width, height]: [u32; 2],
-    format: wgpu::TextureFormat,
-    bytes: &[u8],
-) -> wgpu::TextureView {
-    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-    gpu.texture_of(label, size, format, bytes).create_view(&Default::default())
-}
-
-/// A map halved some times, each time by the mean of four.
-fn halved<const N: usize>(
-    mut map: Vec<[f32; N]>,
-    mut width: usize,
-    level: u32,
-) -> (Vec<[f32; N]>, usize) {
-    for _ in 0..level {
-        let half = width / 2;
-        map = (0..half / 2 * half)
-            .map(|at| {
-                let first = at / half * 2 * width + at % half * 2;
-                let four = [first, first + 1, first + width, first + width + 1];
-                std::array::from_fn(|n| four.iter().map(|&i| map[i][n]).sum::<f32>() / 4.0)
-            })
-            .collect();
-        width = half;
-    }
-    (map, width)
-}
-
-fn relief_texture(gpu: &Gpu, relief: &MoonRelief, level: u32) -> wgpu::TextureView {
-    let radii = relief.elevation_m.iter().map(|&m| [m as f32 / (1000.0 * MOON_RADIUS_KM) as f32]);
-    let (radii, width) = halved(radii.collect(), relief.width, level);
-    let height = width / 2;
-    let step = std::f32::consts::TAU / width as f32;
-    let mut texels = Vec::with_capacity(4 * radii.len());
-    for row in 0..height {
-        let cos_latitude = (std::f32::consts::PI * (row as f32 + 0.5) / height as f32).sin();
-        let (above, below) = (row.saturating_sub(1), (row + 1).min(height - 1));
-        for column in 0..width {
-            let at = |row: usize, column: usize| radii[row * width + column % width][0];
-            let east = (at(row, column + 1) - at(row, column + width - 1)) / (2.0 * step);
-            let north = (at(above, column) - at(below, column)) / ((below - above) as f32 * step);
-            let elevation = at(row, column);
-            let slope = [east / cos_latitude, north].map(|slope| slope / (1.0 + elevation));
-            texels.extend([slope[0], slope[1], elevation, 0.0].map(|v| f16::from_f32(v).to_bits()));
-        }
-    }
-    let format = wgpu::TextureFormat::Rgba16Float;
-    let size = [width as u32, height as u32];
-    map_texture(gpu, "relief", size, format, bytemuck::cast_slice(&texels))
-}
-
-/// What is scattered once and often, and what roughness makes of directions.
-fn ground_textures(gpu: &Gpu, ground: &Ground) -> [wgpu::TextureView; 3] {
-    let texture = |label, (width, height): (usize, usize), texels: Vec<[f64; 4]>| {
-        let texels: Vec<u16> =
-            texels.iter().flatten().map(|&v| f16::from_f64(v).to_bits()).collect();
-        let format = wgpu::TextureFormat::Rgba16Float;
-        let size = [width as u32, height as u32];
-        map_texture(gpu, label, size, format, bytemuck::cast_slice(&texels))
-    };
-    // Cells run from 415 to 643 nm, colours from red to blue.
-    let cells = |of: fn(&[PhaseCell; 3]) -> [f64; 4]| ground.cells.iter().map(of).collect();
-    let once = cells(|[b, g, r]| [r.single, g.single, b.single, g.w]);
-    let often = cells(|[b, g, r]| [r.multiple, g.multiple, b.multiple, 0.0]);
-    let facets = ground.facets.iter();
-    let facets = facets.map(|f| [f.cos_incidence, f.cos_emission, f.shadowing, 0.0]).collect();
-    [
-        texture("scattered once", ground.size, once),
-        texture("scattered often", ground.size, often),
-        texture("facets", (Ground::NODES, Ground::NODES), facets),
-    ]
-}
-
-fn umbra_texture(gpu: &Gpu, shadow: Option<&UmbraTable>) -> wgpu::TextureView {
-    let texels: Vec<u16> = match shadow {
-        Some(table) => {
-            let texel = |&[r, g, b]: &[f64; 3]| [r, g, b, 0.0].map(|v| f16::from_f64(v).to_bits());
-            table.shares.iter().flat_map(texel).collect()
-        }
-        // A binding cannot be empty; without an eclipse nothing reads it.
-        None => vec![0; 4],
-    };
-    let size = [texels.len() as u32 / 4, 1];
-    let format = wgpu::TextureFormat::Rgba16Float;
-    map_texture(gpu, "shadow of the Earth", size, format, bytemuck::cast_slice(&texels))
-}
-
-fn albedo_texture(gpu: &Gpu, albedo: &MoonMap, level: u32) -> wgpu::TextureView {
-    let (reff, width) = halved(albedo.reff.clone(), albedo.width, level);
-    let texels: Vec<u16> = reff
-        .iter()
-        .flat_map(|[red, green, blue]| {
-            [*red, *green, *blue, 0.0].map(|v| f16::from_f32(v).to_bits())
-        })
-        .collect();
-    let format = wgpu::TextureFormat::Rgba16Float;
-    let size = [width as u32, width as u32 / 2];
-    map_texture(gpu, "reflectances", size, format, bytemuck::cast_slice(&texels))
 }

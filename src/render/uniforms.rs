@@ -2,7 +2,8 @@
 //! structs of the same names in `shaders/`.
 //!
 //! They are bound as read-only storage: the software driver compiles a shader whose branches hang on
-//! a uniform anew for every frame, some 10 ms for the sky.
+//! a uniform anew for every frame, some 10 ms for the sky. It reads storage slowly, lane by lane, so that
+//! what is read for every pixel and never branched on is a uniform: that of the globe.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DMat3;
@@ -12,8 +13,10 @@ use crate::camera::{Camera, Projection};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
-use crate::plan::globe::{EXTENT, Globe, Ground, MeshBand, Shadows};
+use crate::plan::globe::mesh::MeshBand;
+use crate::plan::globe::Globe;
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
+use crate::units::Angle;
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
 #[repr(C)]
@@ -56,6 +59,7 @@ pub struct DiscUniform {
     pub edge: f32,
     pub bands: u32,
     pub map_width: u32,
+    pub north: [f32; 4],
 }
 
 /// `Band` of `shaders/discs.wgsl`.
@@ -71,13 +75,9 @@ pub struct DiscBandUniform {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct GlobeUniform {
-    pub body_from_disc: [[f32; 4]; 3],
+    pub body_from_picture: [[f32; 4]; 3],
     pub body_from_sun: [[f32; 4]; 3],
-    pub distance: f32,
-    pub extent: f32,
-    pub first_shadow: f32,
-    pub last_shadow: f32,
-    pub darkness: [f32; 4],
+    pub observer: [f32; 4],
     pub sun: [f32; 4],
     pub earth: [f32; 4],
 }
@@ -90,6 +90,7 @@ pub struct MeshBandUniform {
     pub last: f32,
     pub rings: u32,
     pub sectors: u32,
+    pub is_skirt: u32,
 }
 
 /// `Mean` of `shaders/globe_mean.wgsl`.
@@ -157,8 +158,7 @@ pub fn direction<F>(dir: Dir<F>, with: f64) -> [f32; 4] {
 /// Of the tiles that a globe is drawn in: edge in pixels, columns and rows.
 pub fn globe_tiles(disc: &Disc) -> [u32; 3] {
     let [first, last] = disc.bounds_px;
-    let of_frame = |globe: &Globe| f64::from(globe.picture_px) / f64::from(globe.fineness);
-    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| 0.5 * of_frame(globe));
+    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| globe.radius_px);
     // Straight across a tile, a point of the disc is off by a twentieth of a pixel.
     let tile_px = (0.4 * radius_px).sqrt().clamp(4.0, 32.0).floor();
     let [columns, rows] =
@@ -168,29 +168,18 @@ pub fn globe_tiles(disc: &Disc) -> [u32; 3] {
 
 impl GlobeUniform {
     pub fn of(globe: &Globe) -> Self {
+        let view = &globe.view;
         GlobeUniform {
-            body_from_disc: columns(globe.body_from_disc),
+            body_from_picture: columns(view.body_from_picture()),
             body_from_sun: columns(globe.shadows.body_from_sun),
-            distance: globe.distance as f32,
-            extent: EXTENT as f32,
-            first_shadow: Shadows::FIRST.rad() as f32,
-            last_shadow: Shadows::LAST.rad() as f32,
-            darkness: darkness(&globe.ground),
-            sun: globe.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_sun, s.rim.rad())),
-            earth: globe
+            observer: with(view.to_observer * view.distance, view.distance),
+            sun: view.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_sun, s.rim.rad())),
+            earth: view
                 .shadow
                 .as_ref()
                 .map_or([0.0; 4], |s| with(s.to_earth, s.to_earth.length())),
         }
     }
-}
-
-/// Mean single-scattering albedo over that at 566 nm, at 643, 566 and 415 nm.
-fn darkness(ground: &Ground) -> [f32; 4] {
-    let sum = |band: usize| ground.cells.iter().map(|cell| cell[band].w).sum::<f64>();
-    let green = sum(1);
-    let ratio = |band| if green > 0.0 { (sum(band) / green) as f32 } else { 1.0 };
-    [ratio(2), 1.0, ratio(0), 0.0]
 }
 
 impl MeshBandUniform {
@@ -201,6 +190,7 @@ impl MeshBandUniform {
             last: rad(band.to_deg),
             rings: band.rings,
             sectors: band.sectors,
+            is_skirt: u32::from(band.is_skirt),
         }
     }
 }
@@ -219,10 +209,12 @@ impl DiscUniform {
         let (view, lowest) = (disc.lowest_in_view.vector(), disc.lowest.vector());
         let (sin, cos) = shape.centre.altitude().sin_cos();
         let sin_radius = shape.angular_radius.sin();
+        let north = disc.globe.as_ref().map_or(Angle::ZERO, |globe| globe.north);
+        let (sin_north, cos_north) = north.sin_cos();
         let samples = match &disc.globe {
             Some(globe) => {
                 let [tile_px, columns, _] = globe_tiles(disc);
-                [tile_px, columns, globe.fineness, u32::from(disc.is_cut_by_horizon)]
+                [tile_px, columns, globe.fineness(), u32::from(disc.is_cut_by_horizon)]
             }
             None => {
                 let [inside, edge] = disc.samples;
@@ -235,7 +227,7 @@ impl DiscUniform {
             // One less the cosine of the angle from the axis keeps its digits, the cosine does not.
             lowest_in_view: with(glam::DVec3::new(view.x, view.y, 1.0 + view.z), 0.0),
             lowest: with(lowest, lowest.x.hypot(lowest.y)),
-            centre: [sin as f32, cos as f32, sin_radius as f32, EXTENT as f32],
+            centre: [sin as f32, cos as f32, sin_radius as f32, 0.0],
             to_sun: with(in_disc(shape.dir_to_sun), law),
             body_from_disc: columns(shape.body_from_horizon * horizon_from_disc),
             // A chord of zero hides nothing.
@@ -249,6 +241,7 @@ impl DiscUniform {
             edge: disc.edge as f32,
             bands: (disc.bands.len() / disc.channels()) as u32,
             map_width: map_width as u32,
+            north: [sin_north as f32, cos_north as f32, 0.0, 0.0],
         }
     }
 }

@@ -127,8 +127,13 @@ pub fn radiance_factor(
 /// [`single_scattering`] and `multiple` a quarter of `w`, both times a factor of the caller's.
 pub fn radiance_factor_of(facets: &Facets, w: f64, single: f64, multiple: f64) -> f64 {
     let (mu0, mu) = (facets.cos_incidence, facets.cos_emission);
-    let [h0, h] = [mu0, mu].map(|x| h_function(w, x));
-    mu0 / (mu0 + mu) * facets.shadowing * (single + multiple * (h0 * h - 1.0))
+    mu0 / (mu0 + mu) * facets.shadowing * (single + multiple * again(w, mu0, mu))
+}
+
+/// What grains of single-scattering albedo `w` make of light that they scatter more than once, `H H - 1`, by
+/// effective cosines above 0.
+pub fn again(w: f64, cos_incidence: f64, cos_emission: f64) -> f64 {
+    h_function(w, cos_incidence) * h_function(w, cos_emission) - 1.0
 }
 
 /// A quarter of the light that grains scatter once, `w/4 p(g) (1 + B_S0 B_S(g))`.
