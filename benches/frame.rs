@@ -120,7 +120,8 @@ fn moon(
     let mut lay = || lay_in(&setting, &layers, &night, || Ok(maps.clone()), &mut kept);
     let (plan, _) = lay()?;
     let globe = plan.discs.first().and_then(|disc| disc.globe.as_ref());
-    let triangles: u32 = globe.iter().flat_map(|seen| seen.globe.mesh()).map(|b| b.triangles()).sum();
+    let triangles: u32 =
+        globe.iter().flat_map(|seen| seen.globe.mesh()).map(|b| b.triangles()).sum();
     println!("The Moon in a field of {field_deg}°, 1920x1080: {triangles} triangles");
     println!("  laying it, CPU {:24.2} ms", median_ms(SLOW, lay));
     let empty = passes(renderer, &FramePlan { discs: Vec::new(), ..plan.clone() })?;

@@ -328,26 +328,44 @@ fn globe_at(at: vec2f, width: f32) -> vec4f {
     return light * within_limb(outline, around, at, width);
 }
 
+// What of a pixel is over the ground that stands before what lies below the first node.
+fn over_ground(seen: Seen) -> f32 {
+    let width = max(fwidth(seen.place), 1e-6);
+    return select(1.0, clamp(0.5 + seen.place / width, 0.0, 1.0), seen.place < UNCUT);
+}
+
+// Given the light of the picture by channel, the light through the air.
+fn through_air(seen: Seen, light: vec4f) -> LuminanceXyzv {
+    return seen.red * light.x + seen.green * light.y + seen.blue * light.z + seen.earthlit * light.w;
+}
+
 @fragment
 fn globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
-    let width = max(fwidth(seen.place), 1e-6);
-    let right = dpdx(seen.at);
-    let down = dpdy(seen.at);
-    // The ground stands before what lies below the first node.
-    let over_ground = select(1.0, clamp(0.5 + seen.place / width, 0.0, 1.0), seen.place < UNCUT);
-    if over_ground == 0.0 || length(seen.at) > EXTENT + length(right) + length(down) {
+    let width = 0.5 * (length(dpdx(seen.at)) + length(dpdy(seen.at)));
+    let seen_part = over_ground(seen);
+    if length(seen.at) > EXTENT {
         return vec4f(0.0);
     }
-    // As many samples along a pixel as the picture has pixels there.
+    return through_air(seen, globe_at(seen.at, width) * seen_part);
+}
+
+// The same with as many samples along a pixel as the picture has pixels there.
+@fragment
+fn small_globe_fragment(seen: Seen) -> @location(0) LuminanceXyzv {
+    let right = dpdx(seen.at);
+    let down = dpdy(seen.at);
+    let seen_part = over_ground(seen);
+    if length(seen.at) > EXTENT + length(right) + length(down) {
+        return vec4f(0.0);
+    }
     let count = disc.samples.z;
-    let sample = 0.5 * (length(right) + length(down)) / f32(count);
+    let width = 0.5 * (length(right) + length(down)) / f32(count);
     var sum = vec4f(0.0);
     for (var row = 0u; row < count; row++) {
         let start = seen.at + down * ((f32(row) + 0.5) / f32(count) - 0.5);
         for (var column = 0u; column < count; column++) {
-            sum += globe_at(start + right * ((f32(column) + 0.5) / f32(count) - 0.5), sample);
+            sum += globe_at(start + right * ((f32(column) + 0.5) / f32(count) - 0.5), width);
         }
     }
-    let light = sum * (over_ground / f32(count * count));
-    return seen.red * light.x + seen.green * light.y + seen.blue * light.z + seen.earthlit * light.w;
+    return through_air(seen, sum * (seen_part / f32(count * count)));
 }

@@ -265,7 +265,8 @@ impl<'a> SeenBody<'a> {
             law,
             self.across_px(),
             self.state.distance_km,
-            [-self.state.dir.vector(), self.state.dir_to_sun.vector()].map(|v| body_from_horizon * v),
+            [-self.state.dir.vector(), self.state.dir_to_sun.vector()]
+                .map(|v| body_from_horizon * v),
             Angle::from_rad((SUN_RADIUS_KM / self.state.sun_distance_km).asin()),
             self.night.eclipse.moon.as_ref().map(|eclipsed| {
                 UmbraTable::of(&eclipsed.shadow, &eclipsed.place, &body_from_horizon)

@@ -269,7 +269,8 @@ mod tests {
             for step in 0..50 {
                 let sun_deg = 60.0 + 0.013 * f64::from(step);
                 let view = view(across_px, sun_deg);
-                let true_sun = DVec3::new(sun_deg.to_radians().cos(), sun_deg.to_radians().sin(), 0.0);
+                let true_sun =
+                    DVec3::new(sun_deg.to_radians().cos(), sun_deg.to_radians().sin(), 0.0);
                 let off_px = (view.to_sun - true_sun).length() * 0.5 * f64::from(view.picture_px);
                 assert!(off_px < 0.126 && view.picture_px >= 64, "{off_px}");
             }

@@ -7,11 +7,12 @@ use super::globe::{GlobePass, lattice_indices};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
-use super::uniforms::{DiscBandUniform, DiscUniform, globe_tiles};
+use super::uniforms::{DiscBandUniform, DiscUniform, GlobeTiles};
 
 pub struct DiscPass {
     shapes: wgpu::RenderPipeline,
-    globes: wgpu::RenderPipeline,
+    /// Where a pixel of the frame has about one of the picture, and where it has more.
+    globes: [wgpu::RenderPipeline; 2],
     globe: GlobePass,
     across_picture: wgpu::Sampler,
 }
@@ -24,7 +25,8 @@ impl DiscPass {
         let pipeline = |entries, topology| gpu.pipeline("discs", &source, entries, topology, &[]);
         DiscPass {
             shapes: pipeline(["vertex", "fragment"], strip),
-            globes: pipeline(["globe_vertex", "globe_fragment"], list),
+            globes: ["globe_fragment", "small_globe_fragment"]
+                .map(|fragment| pipeline(["globe_vertex", fragment], list)),
             globe: GlobePass::new(gpu),
             across_picture: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
         }
@@ -66,9 +68,10 @@ impl DiscPass {
         seen: &SeenGlobe,
         [uniform, bands]: [&wgpu::Buffer; 2],
     ) {
+        let globes = &self.globes[usize::from(seen.fineness() > 1)];
         let picture = self.globe.picture(frame, &seen.globe);
         let group = frame.gpu.bind_mixed(
-            &self.globes.get_bind_group_layout(0),
+            &globes.get_bind_group_layout(0),
             &[
                 (0, frame.camera.as_entire_binding()),
                 (1, uniform.as_entire_binding()),
@@ -80,13 +83,13 @@ impl DiscPass {
                 (8, wgpu::BindingResource::Sampler(&self.globe.around)),
             ],
         );
-        let [_, columns, rows] = globe_tiles(disc);
+        let GlobeTiles { columns, rows, .. } = GlobeTiles::of(disc);
         let indices = lattice_indices(columns, rows);
         let (count, usage) = (indices.len() as u32, wgpu::BufferUsages::INDEX);
         let tiles = frame.gpu.buffer("tiles", bytemuck::cast_slice(&indices), usage);
         let bands = (disc.bands.len() / disc.channels()) as u32;
         frame.pass(disc.label, |pass| {
-            pass.set_pipeline(&self.globes);
+            pass.set_pipeline(globes);
             pass.set_bind_group(0, &group, &[]);
             pass.set_index_buffer(tiles.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..count, 0, 0..bands);

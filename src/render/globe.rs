@@ -4,7 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::plan::globe::{EXTENT, Globe};
 
-use super::globe_maps::{NearSideMaps, ground_textures, outline_texture, shadows_texture, umbra_texture};
+use super::globe_maps::{
+    NearSideMaps, ground_textures, outline_texture, shadows_texture, umbra_texture,
+};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
@@ -150,7 +152,12 @@ impl GlobePass {
         let result = storage(gpu, "mean light of the globe", bytemuck::bytes_of(&[0.0f32; 4]));
         let tile = gpu.bind_mixed(
             &self.sum_tile.get_bind_group_layout(0),
-            &[(0, wgpu::BindingResource::TextureView(picture)), (2, sums.as_entire_binding()), (4, wgpu::BindingResource::TextureView(outline)), (5, wgpu::BindingResource::Sampler(&self.around))],
+            &[
+                (0, wgpu::BindingResource::TextureView(picture)),
+                (2, sums.as_entire_binding()),
+                (4, wgpu::BindingResource::TextureView(outline)),
+                (5, wgpu::BindingResource::Sampler(&self.around)),
+            ],
         );
         let all = gpu.bind(
             &self.sum_all.get_bind_group_layout(0),

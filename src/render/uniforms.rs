@@ -13,8 +13,8 @@ use crate::camera::{Camera, Projection};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
-use crate::plan::globe::mesh::MeshBand;
 use crate::plan::globe::Globe;
+use crate::plan::globe::mesh::MeshBand;
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
 use crate::units::Angle;
 
@@ -155,15 +155,43 @@ pub fn direction<F>(dir: Dir<F>, with: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, with as f32]
 }
 
-/// Of the tiles that a globe is drawn in: edge in pixels, columns and rows.
-pub fn globe_tiles(disc: &Disc) -> [u32; 3] {
-    let [first, last] = disc.bounds_px;
-    let radius_px = disc.globe.as_ref().map_or(1.0, |globe| globe.radius_px);
-    // Straight across a tile, a point of the disc is off by a twentieth of a pixel.
-    let tile_px = (0.4 * radius_px).sqrt().clamp(4.0, 32.0).floor();
-    let [columns, rows] =
-        [0, 1].map(|axis| ((last[axis] - first[axis]) / tile_px).ceil().max(0.0) as u32);
-    [tile_px as u32, columns, rows]
+/// The square tiles that a globe is drawn in.
+pub struct GlobeTiles {
+    pub first_px: [f64; 2],
+    pub edge_px: u32,
+    pub columns: u32,
+    pub rows: u32,
+}
+
+impl GlobeTiles {
+    /// How far a point of the disc may be off where it is taken straight across a tile, pixels.
+    const ERROR_PX: f64 = 0.03;
+    /// Blocks that the software driver shades as one.
+    const BLOCK_PX: f64 = 8.0;
+    const LARGEST_PX: f64 = 64.0;
+
+    pub fn of(disc: &Disc) -> GlobeTiles {
+        let px_per_rad = match &disc.globe {
+            Some(globe) => globe.radius_px / disc.shape.angular_radius.rad(),
+            None => 1.0,
+        };
+        // Meridians draw together, and refraction bends what is low: both per radian.
+        let converging = disc.shape.centre.altitude().rad().tan().abs();
+        let step = disc.step.rad();
+        let bends = disc.bands.iter().flat_map(|band| band.nodes.windows(3)).map(|nodes| {
+            let [low, middle, high] = [0, 1, 2].map(|node: usize| nodes[node].above_centre.rad());
+            (high - 2.0 * middle + low).abs() / (step * step)
+        });
+        let bend = bends.fold(1.0 + converging, f64::max);
+        let edge_px = (8.0 * GlobeTiles::ERROR_PX * px_per_rad / bend).sqrt();
+        let edge_px = edge_px.clamp(GlobeTiles::BLOCK_PX, GlobeTiles::LARGEST_PX);
+        let edge_px = (edge_px / GlobeTiles::BLOCK_PX).floor() * GlobeTiles::BLOCK_PX;
+        let [first, last] = disc.bounds_px;
+        let first_px = first.map(|px| (px / GlobeTiles::BLOCK_PX).floor() * GlobeTiles::BLOCK_PX);
+        let [columns, rows] =
+            [0, 1].map(|axis| ((last[axis] - first_px[axis]) / edge_px).ceil().max(0.0) as u32);
+        GlobeTiles { first_px, edge_px: edge_px as u32, columns, rows }
+    }
 }
 
 impl GlobeUniform {
@@ -174,10 +202,7 @@ impl GlobeUniform {
             body_from_sun: columns(globe.shadows.body_from_sun),
             observer: with(view.to_observer * view.distance, view.distance),
             sun: view.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_sun, s.rim.rad())),
-            earth: view
-                .shadow
-                .as_ref()
-                .map_or([0.0; 4], |s| with(s.to_earth, s.to_earth.length())),
+            earth: view.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_earth, s.to_earth.length())),
         }
     }
 }
@@ -199,6 +224,10 @@ impl DiscUniform {
     pub fn of(disc: &Disc) -> Self {
         let shape = &disc.shape;
         let pixel = |p: [f64; 2]| p.map(|v| v as f32);
+        let first_px = match disc.globe {
+            Some(_) => GlobeTiles::of(disc).first_px,
+            None => disc.bounds_px[0],
+        };
         let (law, map_width) = match &shape.law {
             SurfaceLaw::Sun { .. } => (0.0, 0),
             SurfaceLaw::Moon { map } => (1.0, map.width),
@@ -213,8 +242,8 @@ impl DiscUniform {
         let (sin_north, cos_north) = north.sin_cos();
         let samples = match &disc.globe {
             Some(globe) => {
-                let [tile_px, columns, _] = globe_tiles(disc);
-                [tile_px, columns, globe.fineness(), u32::from(disc.is_cut_by_horizon)]
+                let GlobeTiles { edge_px, columns, .. } = GlobeTiles::of(disc);
+                [edge_px, columns, globe.fineness(), u32::from(disc.is_cut_by_horizon)]
             }
             None => {
                 let [inside, edge] = disc.samples;
@@ -222,7 +251,7 @@ impl DiscUniform {
             }
         };
         DiscUniform {
-            first_px: pixel(disc.bounds_px[0]),
+            first_px: pixel(first_px),
             last_px: pixel(disc.bounds_px[1]),
             // One less the cosine of the angle from the axis keeps its digits, the cosine does not.
             lowest_in_view: with(glam::DVec3::new(view.x, view.y, 1.0 + view.z), 0.0),

@@ -8,7 +8,7 @@
 //! `often`: what it does to `again` half-way up is taken for what it does at all heights. A table of
 //! `lit` and `lit x again` for the mean ground is then all there is to look up.
 //!
-//! *Accuracy.* 0.6 % of the radiance factor, for ground as dark and as bright as the Moon has (tested).
+//! *Accuracy.* 0.8 % of the radiance factor, for ground as dark and as bright as the Moon has (tested).
 
 use crate::light::moon::hapke::{self, Facets};
 use crate::light::moon::surface::PhaseCell;
@@ -135,17 +135,20 @@ mod tests {
             let ground = Ground::at_phase(Reflectance::Hapke, &surface, phase);
             let cells = surface.at_phase(phase);
             // Away from the poles, which are evened.
-            for at in 36 * 8..36 * 8 + 4 {
+            for (at, cell) in cells.iter().enumerate().skip(36 * 8).take(4) {
                 for node in 0..Ground::NODES * Ground::NODES {
                     let [i, e] = [node % Ground::NODES, node / Ground::NODES]
                         .map(|node| (node as f64 / (Ground::NODES - 1) as f64).powi(2).max(1e-4));
                     let facets = Facets::of(i, e, phase);
                     let [lit, again] = ground.by_directions[node];
                     for (colour, band) in [2, 1, 0].into_iter().enumerate() {
-                        let PhaseCell { w, single, multiple } = cells[at][band];
+                        let PhaseCell { w, single, multiple } = cell[band];
                         let law = hapke::radiance_factor_of(&facets, w, single, multiple);
                         let got = ground.once[at][colour] * lit + ground.often[at][colour] * again;
-                        assert!((got - law).abs() <= 0.006 * law, "{phase_deg} {i} {e}: {got} {law}");
+                        assert!(
+                            (got - law).abs() <= 0.008 * law,
+                            "{phase_deg} {i} {e}: {got} {law}"
+                        );
                     }
                 }
             }

@@ -57,8 +57,7 @@ impl Limb {
 mod tests {
     use super::*;
 
-    const FACING: DMat3 =
-        DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
+    const FACING: DMat3 = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
 
     #[test]
     fn the_limb_of_a_smooth_globe_is_its_radius() {
@@ -75,7 +74,8 @@ mod tests {
         // 8 km at the eastern limb, 3 degrees behind it, 10 degrees north.
         let heights: Vec<f32> = (0..2880 * 1440)
             .map(|at| {
-                let (longitude, latitude) = ((at % 2880) as f64 / 8.0 - 180.0, 90.0 - (at / 2880) as f64 / 8.0);
+                let (longitude, latitude) =
+                    ((at % 2880) as f64 / 8.0 - 180.0, 90.0 - (at / 2880) as f64 / 8.0);
                 let off = (longitude - 93.0).hypot(latitude - 10.0);
                 if off < 0.5 { 0.0046 } else { 0.0 }
             })

@@ -42,9 +42,9 @@ fn mesh_for(picture_px: u32) -> [MeshBand; 4] {
             is_skirt: false,
         }
     };
-    let limb = band([85, 96], 40.0, 8.0);
+    let limb = band([85, 96], 80.0, 16.0);
     let skirt = MeshBand { from_deg: 80, to_deg: 90, rings: 1, is_skirt: true, ..limb };
-    [band([0, 75], 16.0, 24.0), band([75, 85], 64.0, 12.0), limb, skirt]
+    [band([0, 75], 24.0, 32.0), band([75, 85], 160.0, 16.0), limb, skirt]
 }
 
 #[cfg(test)]
@@ -55,7 +55,7 @@ mod tests {
     fn small_discs_are_drawn_with_few_triangles() {
         let triangles = |px| mesh_for(px).map(|band| band.triangles()).iter().sum::<u32>();
         assert!(triangles(64) < 600, "{}", triangles(64));
-        assert!((50_000..200_000).contains(&triangles(2000)), "{}", triangles(2000));
-        assert_eq!(mesh_for(8000)[2].sectors, 2880);
+        assert!((20_000..60_000).contains(&triangles(2000)), "{}", triangles(2000));
+        assert_eq!(mesh_for(16_000)[2].sectors, 2880);
     }
 }

@@ -140,9 +140,14 @@ mod tests {
     fn places_keep_their_values() {
         for (level, tolerance) in [(0, 4e-4), (1, 1.5e-3)] {
             let near = NearSide::of(&map(360), 360, level);
-            for [longitude, latitude] in
-                [[0.0, 0.0], [30.0, 40.0], [-95.0, 10.0], [100.0, -5.0], [10.0, 89.0], [170.0, -88.0]]
-            {
+            for [longitude, latitude] in [
+                [0.0, 0.0],
+                [30.0, 40.0],
+                [-95.0, 10.0],
+                [100.0, -5.0],
+                [10.0, 89.0],
+                [170.0, -88.0],
+            ] {
                 let n = normal(longitude, latitude);
                 let got = near.at(n).unwrap();
                 let off = (DVec3::from(got.map(f64::from)) - n).length();

@@ -37,4 +37,3 @@ impl UmbraTable {
         UmbraTable { to_sun, to_earth, rim, shares: (0..UmbraTable::NODES).map(node).collect() }
     }
 }
-
