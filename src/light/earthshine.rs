@@ -7,6 +7,10 @@
 //! shrinks with the lit crescent, to nothing. Their own level, an albedo of 0.434, is left: with this
 //! shape the Earth would send back 57 % of all sunlight, where satellites find 30.
 //!
+//! Earthshine agrees: a spherical albedo of 0.30 in V within 10 % (Franklin 1967, *J. Geophys. Res.* 72, 2963),
+//! 0.294 in Robinson 2025, 0.317 here; an apparent albedo, over that of a white sphere of Lambert at the same
+//! phase, of 0.297 (Qiu et al. and Pallé et al. 2003, *J. Geophys. Res.* 108, 4709 and 4710), 0.25 to 0.36 here.
+//!
 //! The full Earth of mean distance gives the Moon 8.8 lx (magnitude -16.4); Allen's albedo of 0.367 gives
 //! 13 lx (-16.8), round numbers 20 lx. Clouds change it by 10 % from night to night and 15 to 20 % with
 //! the seasons (Goode et al. 2001, *Geophys. Res. Lett.* 28, 1671; Pallé et al. 2003, *J. Geophys. Res.*
