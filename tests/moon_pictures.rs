@@ -305,7 +305,7 @@ fn places_show(renderer: &Renderer) -> Result<(), Failed> {
             ("Tycho", false, 3.0, 1.0),
             ("Copernicus", false, 3.0, 1.0),
             ("Plato", true, 2.5, 0.3),
-            ("Mare Crisium", true, 12.0, 1.5),
+            ("Mare Crisium", true, 12.0, 2.0),
             ("Aristarchus", false, 1.5, 0.4),
             ("Grimaldi", true, 4.0, 1.0),
             ("Proclus", false, 1.2, 0.4),

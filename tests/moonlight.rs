@@ -83,9 +83,14 @@ fn phase_curve() -> Vec<[f64; 5]> {
     rows.map(|row| [row[0], row[1], row[8], row[7], row[9]]).collect()
 }
 
-/// How far from the curve the light of the disc may be.
+/// How far from the curve the light of the disc may be: where the fit ends it goes on in its own way, and
+/// the curve by the polynomials of the fit.
 fn within(phase_deg: f64) -> f64 {
-    if (3.0..=97.0).contains(&phase_deg) { 0.05 } else { 0.10 }
+    match phase_deg {
+        ..=97.0 => 0.001,
+        ..=120.0 => 0.03,
+        _ => 0.25,
+    }
 }
 
 /// The illuminance of the curve at a phase angle within it, straight between the logarithms.
@@ -123,17 +128,19 @@ fn the_light_of_the_disc_follows_the_phase_curve() {
             100.0 * slopes[0],
             100.0 * slopes[1]
         );
-        for (worst, error) in worst.iter_mut().zip([error, mean, slopes[0], slopes[1]]) {
-            *worst = worst.max(error.abs());
+        assert!(error.abs() < within(phase_deg), "{phase_deg}°: {error}");
+        assert!(mean.abs() < within(phase_deg) + 0.005, "{phase_deg}°: {mean}");
+        if phase_deg <= 120.0 {
+            assert!(slopes.iter().all(|slope| slope.abs() < 0.03), "{phase_deg}°: {slopes:?}");
+            assert!(sides.iter().all(|side| (side - 1.0).abs() < 0.10), "{phase_deg}°: {sides:?}");
+            for (worst, error) in worst.iter_mut().zip([error, mean, slopes[0], slopes[1]]) {
+                *worst = worst.max(error.abs());
+            }
         }
-        assert!(
-            error.abs() < 0.01 && mean.abs() < within(phase_deg),
-            "{phase_deg}°: {error} {mean}"
-        );
-        assert!(slopes.iter().all(|slope| slope.abs() < 0.05), "{phase_deg}°: {slopes:?}");
-        assert!(sides.iter().all(|side| (side - 1.0).abs() < 0.10), "{phase_deg}°: {sides:?}");
     }
-    println!("largest differences: light, mean of both sides, blue, red: {worst:.4?}");
+    println!(
+        "largest differences to 120 degrees: light, mean of both sides, blue, red: {worst:.4?}"
+    );
 }
 
 /// The Moon of the sky, with its distances, librations and the light of the Earth, through one lunation.
@@ -185,7 +192,7 @@ fn the_moon_of_the_sky_is_as_bright_as_the_curve() {
         seen[waxing][1] += 1.0;
         // A side alone may be 7 % off the mean of both, and the librations 1 % more.
         assert!((all / wanted - 1.0).abs() < 0.10, "{phase_deg}°: {all} lx, not {wanted}");
-        assert!(earthlit / all < 0.01 || phase_deg > 97.0, "{phase_deg}°: {earthlit} of {all}");
+        assert!(earthlit / all < 0.002, "{phase_deg}°: {earthlit} of {all}");
     }
     let mean = seen.map(|[sum, count]| sum / count);
     println!(
@@ -194,7 +201,7 @@ fn the_moon_of_the_sky_is_as_bright_as_the_curve() {
     );
     assert!((0.5 * (mean[0] + mean[1])).abs() < 0.05 && mean[0] > 0.0 && mean[1] < 0.0);
     // Of the thinnest crescents the Earth lights the most.
-    assert!(earthshine_of_thin > 0.3);
+    assert!(earthshine_of_thin > 0.5);
 }
 
 #[test]
