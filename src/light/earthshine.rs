@@ -7,27 +7,32 @@
 //! shrinks with the lit crescent, to nothing. Their own level, an albedo of 0.434, is left: with this
 //! shape the Earth would send back 57 % of all sunlight, where satellites find 30.
 //!
-//! Earthshine agrees: a spherical albedo of 0.30 in V within 10 % (Franklin 1967, *J. Geophys. Res.* 72, 2963),
-//! 0.294 in Robinson 2025, 0.317 here; an apparent albedo, over that of a white sphere of Lambert at the same
-//! phase, of 0.297 (Qiu et al. and Pallé et al. 2003, *J. Geophys. Res.* 108, 4709 and 4710), 0.25 to 0.36 here.
+//! Earthshine agrees. Spherical albedo: 0.30 in V within 10 % (Franklin 1967, *J. Geophys. Res.* 72,
+//! 2963), 0.294 (Robinson 2025), 0.317 here. Apparent albedo, over a white sphere of Lambert at the same
+//! phase: 0.297 on the mean (Qiu et al. 2003 and Pallé et al. 2003, *J. Geophys. Res.* 108, 4709 and
+//! 4710), 0.294 here, 0.25 to 0.36 by phase.
 //!
-//! The full Earth of mean distance gives the Moon 8.8 lx (magnitude -16.4); Allen's albedo of 0.367 gives
-//! 13 lx (-16.8), round numbers 20 lx. Clouds change it by 10 % from night to night and 15 to 20 % with
-//! the seasons (Goode et al. 2001, *Geophys. Res. Lett.* 28, 1671; Pallé et al. 2003, *J. Geophys. Res.*
-//! 108, 4710): left out.
+//! The full Earth of mean distance gives the Moon 8.9 lx (magnitude -16.4); Allen's albedo of 0.367 gives
+//! 13 lx (-16.8), round numbers 20 lx (-17.7). Clouds change it by 10 % from night to night and 15 to 20 %
+//! with the seasons (Goode et al. 2001, *Geophys. Res. Lett.* 28, 1671; Pallé et al. 2003): left out.
 //!
 //! *Colour.* The molecules of the air make it bluer than sunlight: geometric albedos of about 0.69,
 //! 0.51, 0.43, 0.39 and 0.40 in U, B, V, R and I (Mallama, Krobusek & Pavlov 2017, *Icarus* 282, 19;
-//! recalled), straight between the wavelengths of the bands and scaled to the V magnitude. The same at
-//! every phase; what it does to the Moon is redder by the albedo of the Moon.
+//! recalled), straight between the wavelengths of the bands and scaled to the brightness. The same at
+//! every phase; what it does to the Moon is redder by the albedo of the Moon. Bluer than sunlight by 0.17
+//! in B - V; Thejll et al. 2014, *Astronomy & Astrophysics* 563, A38, find 0.21, Franklin 0.20. Against
+//! the bright side of the Moon the dark side is bluer by 0.27, as ROLO makes crescents redder than the
+//! full Moon; Thejll et al. saw 0.15 in one night.
 //!
 //! *Measured.* Mean radiance of the dark side at phase angles of the Moon of 150, 120, 90 and 60
-//! degrees: 13.1, 13.7, 14.6 and 15.8 mag/arcsec2, fainter than the bright side by 6.8, 7.9, 9.4 and
-//! 11.2 magnitudes: lost in the glare of the bright side from half Moon on.
+//! degrees: 13.8, 14.3, 15.2 and 16.4 mag/arcsec2 (12 to 17 seen: Montañés-Rodríguez, Pallé & Goode
+//! 2007, *Astronomical Journal* 134, 1145), fainter than the bright side by 7.4, 8.5, 10.0 and 11.8
+//! magnitudes: lost in the glare of the bright side from half Moon on.
 //!
 //! *Angles.* The Earth's phase angle seen from the Moon is 180 degrees less the Moon's seen from the
-//! Earth's centre, but for the Sun's distance ([`EarthView`] takes the real angle). The Earth lights the near side nearly along
-//! the line of sight: the surface has its opposition surge, no shadows, and no limb darkening.
+//! Earth's centre, but for the Sun's distance ([`EarthView`] takes the real angle). The Earth lights
+//! the near side nearly along the line of sight: the surface has its opposition surge, no shadows, and no
+//! limb darkening.
 
 use crate::light::moon::{self, MoonView};
 use crate::light::spectrum::{Spectrum, interpolate};
