@@ -173,9 +173,9 @@ fn solved<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) -> [f6
         right.swap(column, pivot);
         for row in 0..N {
             if row != column {
-                let share = matrix[row][column] / matrix[column][column];
-                for k in column..N {
-                    matrix[row][k] -= share * matrix[column][k];
+                let (pivot, share) = (matrix[column], matrix[row][column] / matrix[column][column]);
+                for (cell, above) in matrix[row].iter_mut().zip(pivot) {
+                    *cell -= share * above;
                 }
                 right[row] -= share * right[column];
             }
