@@ -1,4 +1,4 @@
-//! Eclipses and earthshine as light, against contact times and published brightness.
+//! Eclipses as light, against contact times and published brightness.
 
 use std::sync::LazyLock;
 
@@ -7,8 +7,6 @@ use nocturne::almanac::eclipse::{LunarEclipse, lunar_eclipses, solar_eclipses};
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::light::earth_shadow::{Danjon, EarthShadow, ShadowDistances, ShadowedMoon};
-use nocturne::light::earthshine::{self, EarthView};
-use nocturne::light::moon::{self, MoonView};
 use nocturne::light::night::Night;
 use nocturne::light::solar_eclipse::CoveredSun;
 use nocturne::light::spectrum::Transmittance;
@@ -361,45 +359,4 @@ fn totality_has_the_light_of_the_corona() {
     assert!((-13.0..-10.5).contains(&sun.magnitude.0), "{:?}", sun.magnitude);
     let whole = night.irradiance_without_eclipse(&night.sky.sun).xyzv().y;
     assert!((whole / 133_500.0 - 1.0).abs() < 0.035);
-}
-
-#[test]
-fn earthshine_is_as_bright_and_blue_as_published() {
-    let view = |moon_phase_deg: f64| {
-        EarthView::of_moon_phase(Angle::from_deg(moon_phase_deg), 384_400.0, AU_KM)
-    };
-    let (full, magnitude) = earthshine::illuminance(&view(180.0));
-    println!("full Earth: {:.1} lx, magnitude {:.2}", full.lx(), magnitude.0);
-    // Allen's albedo of 0.367 gives 13.5 lx; round numbers in use go up to 20.
-    assert!((13.0..20.0).contains(&full.lx()));
-    // Lambert's sphere has 1/pi of its light at half phase, the Earth less.
-    let half = earthshine::illuminance(&view(90.0)).0.lx() / full.lx();
-    assert!((0.2..0.3).contains(&half), "{half}");
-    // Bluer than the Sun by 0.18 magnitudes of B - V (Mallama et al. 2017, recalled: 0.47 and 0.65).
-    let earth = earthshine::irradiance(Angle::from_deg(30.0), 384_400.0);
-    let sun = sun::irradiance_1au();
-    let bluer =
-        magnitudes(earth.at_nm(550.0) / earth.at_nm(440.0) * sun.at_nm(440.0) / sun.at_nm(550.0));
-    assert!((0.12..0.25).contains(&bluer), "{bluer}");
-    assert_eq!(earthshine::irradiance(Angle::from_deg(180.0), 384_400.0).xyzv().y, 0.0);
-    // Dark side against bright side, mean radiance of each. The dark side is 12 to 14 magnitudes in a
-    // square arcsecond at a thin crescent (recalled), and drowns towards half Moon.
-    let disc_sr = 6.4177e-5;
-    let mut before = 0.0;
-    for (phase_deg, least, most) in
-        [(150.0f64, 5.5, 8.5), (120.0, 7.0, 10.0), (90.0, 8.5, 11.0), (60.0, 9.5, 12.5)]
-    {
-        let moon = MoonView::at_phase(Angle::from_deg(phase_deg));
-        let dark = earthshine::disc_irradiance(&moon, &view(phase_deg)).xyzv().y / disc_sr;
-        let lit = 0.5 * (1.0 + phase_deg.to_radians().cos());
-        let bright = moon::irradiance(&moon).xyzv().y / disc_sr / lit;
-        let apart = magnitudes(dark / bright);
-        let surface = 12.58 - 2.5 * dark.log10();
-        println!(
-            "phase {phase_deg}: dark side {dark:.3} cd/m2 ({surface:.1} mag/arcsec2), {apart:.1} mag apart"
-        );
-        assert!((least..most).contains(&apart) && apart > before, "{phase_deg}: {apart}");
-        assert!((12.0..16.0).contains(&surface), "{phase_deg}: {surface}");
-        before = apart;
-    }
 }

@@ -3,10 +3,11 @@
 use nocturne::air::Atmosphere;
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::{Body, Ephemeris, Galilean};
+use nocturne::frame::Dir;
 use nocturne::light::night::{Kind, Night};
 use nocturne::place::Place;
 use nocturne::sky::SkyState;
-use nocturne::time;
+use nocturne::time::{self, Instant, JulianDate};
 use nocturne::units::{Angle, MOON_RADIUS_KM};
 
 const TOLERANCE: Angle = Angle::from_arcsec(0.1);
@@ -82,6 +83,56 @@ fn libration_puts_places_where_it_says() {
             assert_eq!(point.observer_altitude > Angle::ZERO, is_near, "{} {at}", feature.name);
         }
     }
+}
+
+/// Five observers from 1955 to 2049, by the librations of DE421, ERFA and a projection of its own.
+#[test]
+fn places_stand_where_another_program_puts_them() {
+    let table = include_str!("truth/moon_features_de421.csv");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .skip(1)
+        .map(|line| line.split(',').collect())
+        .collect();
+    assert_eq!(rows.len(), 50);
+    let (ephemeris, names) = (ephemeris(), catalogs().moon_features().expect("the names"));
+    let (mut farthest_deg, mut sun_off_deg) = (0.0f64, 0.0f64);
+    for row in &rows {
+        let number = |column: usize| -> f64 { row[column].parse().expect("a number") };
+        let instant = Instant::from_tt_ut1(
+            JulianDate::from_parts(number(0), number(1)),
+            JulianDate::from_parts(number(0), number(2)),
+        )
+        .expect("a date");
+        let place = Place::new(number(4), number(3), number(5)).expect("a place");
+        let sky = SkyState::at(&ephemeris, &instant, &place, TOLERANCE).expect("a sky");
+        let night =
+            Night::of(sky, Vec::new(), &Atmosphere::default()).with_moon_features(names.clone());
+        let moon = &night.sky.moon;
+        for (what, got, wanted_deg) in [
+            ("libration in longitude", moon.libration.longitude, number(6)),
+            ("libration in latitude", moon.libration.latitude, number(7)),
+            ("longitude of the Sun", moon.subsolar.longitude, number(8)),
+            ("latitude of the Sun", moon.subsolar.latitude, number(9)),
+        ] {
+            let off_deg = (got - Angle::from_deg(wanted_deg)).signed().deg().abs();
+            sun_off_deg = sun_off_deg.max(off_deg);
+            assert!(off_deg < 1e-3, "{what}: off by {off_deg} degrees");
+        }
+        let name = row[10];
+        let feature = night.moon_feature(name).expect("a place by name");
+        assert!((feature.longitude.deg() - number(11)).abs() < 0.01, "{name}");
+        assert!((feature.latitude.deg() - number(12)).abs() < 0.01, "{name}");
+        let (point, _) = night.on_moon(feature);
+        let wanted =
+            Dir::from_azimuth_altitude(Angle::from_deg(number(13)), Angle::from_deg(number(14)));
+        // Arc on the Moon, as in the middle of its disc.
+        let off_deg = (point.dir.separation(wanted) / moon.state.angular_radius.rad()).deg();
+        farthest_deg = farthest_deg.max(off_deg);
+        assert!(off_deg < 0.02, "{name}: {off_deg} degrees of the Moon aside");
+    }
+    println!("places within {farthest_deg:.5} degrees of the Moon, angles within {sun_off_deg:.6}");
 }
 
 #[test]

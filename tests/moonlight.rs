@@ -4,13 +4,19 @@
 use std::sync::LazyLock;
 
 use glam::DVec3;
+use nocturne::air::Atmosphere;
 use nocturne::catalog::moon::hapke::BANDS_NM;
 use nocturne::catalog::{Catalogs, MoonHapke, MoonMap};
+use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::frame::{Dir, MoonFixed};
 use nocturne::light::moon::{self, MoonSurface, MoonView, Reflectance, hapke};
+use nocturne::light::night::Night;
 use nocturne::light::spectrum::{LEN, Spectrum};
 use nocturne::light::sun;
-use nocturne::units::{Angle, MOON_RADIUS_KM};
+use nocturne::place::Place;
+use nocturne::sky::SkyState;
+use nocturne::time;
+use nocturne::units::{AU_KM, Angle, MOON_RADIUS_KM};
 
 static MAPS: LazyLock<(MoonMap, MoonHapke)> = LazyLock::new(|| {
     let catalogs = Catalogs::locate(None).expect("catalogues");
@@ -63,6 +69,157 @@ fn rolo_rows() -> Vec<[f64; 4]> {
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     let numbers = rows.map(|row| row.split(',').map(|cell| cell.parse().expect("a number")));
     numbers.map(|row| row.collect::<Vec<f64>>().try_into().expect("four columns")).collect()
+}
+
+/// Rows of the whole phase curve: phase, lux, then equivalent reflectances at 450, 550 and 650 nm. It is
+/// that of ROLO half-way between waxing and waning, without libration, at 384 400 km and 1 au.
+fn phase_curve() -> Vec<[f64; 5]> {
+    let text = include_str!("truth/rolo_phase_curve.csv");
+    let columns = |row: &str| -> Vec<f64> {
+        row.split(',').map(|cell| cell.parse().expect("a number")).collect()
+    };
+    let rows = text.lines().skip(1).map(columns);
+    // Its order of the reflectances is 550, 450, 650.
+    rows.map(|row| [row[0], row[1], row[8], row[7], row[9]]).collect()
+}
+
+/// How far from the curve the light of the disc may be: where the fit ends it goes on in its own way, and
+/// the curve by the polynomials of the fit.
+fn within(phase_deg: f64) -> f64 {
+    match phase_deg {
+        ..=97.0 => 0.001,
+        ..=120.0 => 0.03,
+        _ => 0.25,
+    }
+}
+
+/// The illuminance of the curve at a phase angle within it, straight between the logarithms.
+fn curve_lx(curve: &[[f64; 5]], phase_deg: f64) -> f64 {
+    let row = curve.windows(2).find(|pair| (pair[0][0]..=pair[1][0]).contains(&phase_deg));
+    let [low, high] = row.expect("within the curve") else { panic!("two rows") };
+    let share = (phase_deg - low[0]) / (high[0] - low[0]);
+    (low[1].ln() + (high[1] / low[1]).ln() * share).exp()
+}
+
+#[test]
+fn the_light_of_the_disc_follows_the_phase_curve() {
+    let curve = phase_curve();
+    assert_eq!(curve.len(), 24);
+    let mut worst = [0.0f64; 4];
+    for [phase_deg, lx, a450, a550, a650] in curve {
+        let plain = MoonView::at_phase(Angle::from_deg(phase_deg));
+        let got = moon::irradiance(&plain).xyzv().y;
+        let error = got / lx - 1.0;
+        // Waxing and waning differ from it by as much as the seas do, to opposite sides.
+        let sides = [phase_deg, -phase_deg]
+            .map(|phase_deg| moon::irradiance(&at_phase(phase_deg).0).xyzv().y / lx);
+        let mean = (sides[0] * sides[1]).sqrt() - 1.0;
+        let albedo = |nm| moon::disc_reflectance_at(&plain, nm);
+        let slopes = [
+            albedo(450.0) / albedo(550.0) / (a450 / a550),
+            albedo(650.0) / albedo(550.0) / (a650 / a550),
+        ]
+        .map(|ratio| ratio - 1.0);
+        println!(
+            "{phase_deg:5}°: {got:.6} lx, {:+.3} %; waxing {:+.2} %, waning {:+.2} %; 450/550 {:+.2} %, 650/550 {:+.2} %",
+            100.0 * error,
+            100.0 * (sides[0] - 1.0),
+            100.0 * (sides[1] - 1.0),
+            100.0 * slopes[0],
+            100.0 * slopes[1]
+        );
+        assert!(error.abs() < within(phase_deg), "{phase_deg}°: {error}");
+        assert!(mean.abs() < within(phase_deg) + 0.005, "{phase_deg}°: {mean}");
+        if phase_deg <= 120.0 {
+            assert!(slopes.iter().all(|slope| slope.abs() < 0.03), "{phase_deg}°: {slopes:?}");
+            assert!(sides.iter().all(|side| (side - 1.0).abs() < 0.10), "{phase_deg}°: {sides:?}");
+            for (worst, error) in worst.iter_mut().zip([error, mean, slopes[0], slopes[1]]) {
+                *worst = worst.max(error.abs());
+            }
+        }
+    }
+    println!(
+        "largest differences to 120 degrees: light, mean of both sides, blue, red: {worst:.4?}"
+    );
+}
+
+/// The Moon of the sky, with its distances, librations and the light of the Earth, through one lunation.
+#[test]
+fn the_moon_of_the_sky_is_as_bright_as_the_curve() {
+    let curve = phase_curve();
+    let catalogs = Catalogs::locate(None).expect("catalogues");
+    let tolerance = Angle::from_arcsec(1.0);
+    let ephemeris = Ephemeris::load(&catalogs, tolerance).expect("tables");
+    let place = Place::new(35.2, -111.65, 2100.0).expect("a place");
+    let start = time::parse("2027-02-07T06:00Z").expect("a time");
+    let start = time::to_instant(&start, None).expect("an instant");
+    let mut seen = [[0.0f64; 2]; 2];
+    let mut earthshine_of_thin = 0.0f64;
+    println!("phase     lx        over the curve, sunlight alone; earthshine");
+    for step in 0..59 {
+        let instant = start.plus_seconds(43_200.0 * f64::from(step)).expect("an instant");
+        let sky = SkyState::at(&ephemeris, &instant, &place, tolerance).expect("a sky");
+        let night = Night::of(sky, Vec::new(), &Atmosphere::default());
+        let state = &night.sky.moon.state;
+        let phase_deg = state.phase_angle.deg();
+        let object = night.body(Body::Moon).expect("the Moon");
+        let (all, sunlit, earthlit) = (
+            night.irradiance(state).xyzv().y,
+            night.sunlit_moon().xyzv().y,
+            night.earthlit_moon().xyzv().y,
+        );
+        assert!((all / (sunlit + earthlit) - 1.0).abs() < 1e-12);
+        assert!((object.outside.lx() / all - 1.0).abs() < 1e-12);
+        assert!((object.magnitude.0 - object.outside.magnitude().0).abs() < 1e-12);
+        if !(3.0..=120.0).contains(&phase_deg) {
+            if phase_deg > 165.0 {
+                earthshine_of_thin = earthshine_of_thin.max(earthlit / all);
+            }
+            continue;
+        }
+        let nearness =
+            (384_400.0 / state.distance_km).powi(2) * (AU_KM / state.sun_distance_km).powi(2);
+        let wanted = curve_lx(&curve, phase_deg) * nearness;
+        let waxing = usize::from(night.sky.moon.subsolar.longitude.signed() < Angle::ZERO);
+        println!(
+            "{}{phase_deg:6.1} {all:9.6} {:+.2} % {:+.2} %; {:.2} %",
+            ["+", "-"][waxing],
+            100.0 * (all / wanted - 1.0),
+            100.0 * (sunlit / wanted - 1.0),
+            100.0 * earthlit / all
+        );
+        seen[waxing][0] += (sunlit / wanted).ln();
+        seen[waxing][1] += 1.0;
+        // A side alone may be 7 % off the mean of both, and the librations 1 % more.
+        assert!((all / wanted - 1.0).abs() < 0.10, "{phase_deg}°: {all} lx, not {wanted}");
+        assert!(earthlit / all < 0.002, "{phase_deg}°: {earthlit} of {all}");
+    }
+    let mean = seen.map(|[sum, count]| sum / count);
+    println!(
+        "waxing {:+.4}, waning {:+.4}; earthshine at most {earthshine_of_thin:.3}",
+        mean[0], mean[1]
+    );
+    assert!((0.5 * (mean[0] + mean[1])).abs() < 0.05 && mean[0] > 0.0 && mean[1] < 0.0);
+    // Of the thinnest crescents the Earth lights the most.
+    assert!(earthshine_of_thin > 0.5);
+}
+
+#[test]
+fn beyond_the_measured_phases_the_light_goes_on_smoothly() {
+    for side in [1.0, -1.0] {
+        let at = |deg: f64| moon::irradiance(&at_phase(side * deg).0).xyzv().y;
+        // Steps of a tenth of a degree: no jump, always fainter.
+        for step in 0..1800 {
+            let [here, next] = [0.0, 0.1].map(|more| at(0.1 * f64::from(step) + more));
+            assert!(next < here && here.is_finite(), "{side} {step}: {here} {next}");
+            assert!(next > 0.95 * here || step > 1650, "{side} {step}: {here} {next}");
+        }
+        // The surge: an eighth to a fifth more at 0 than where the measurements begin.
+        let surge = at(0.0) / at(1.55);
+        println!("surge over 1.55 degrees: {surge:.3}");
+        assert!((1.08..1.25).contains(&surge));
+        assert_eq!(at(180.0), 0.0);
+    }
 }
 
 /// Straight between the bands, and on beyond the last.

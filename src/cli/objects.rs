@@ -29,7 +29,7 @@ pub struct ObjectsArgs {
     /// Only objects of this kind
     #[arg(long, value_enum)]
     kind: Option<KindArg>,
-    /// Only objects above the horizon
+    /// Only objects above the horizon, which from a height lies a little below the level
     #[arg(long)]
     up: bool,
     /// Only objects at least this bright
@@ -114,7 +114,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         let wanted = is_called(object)
             && args.kind.is_none_or(|kind| kind.is(object))
             && args.magnitude_limit.is_none_or(|limit| object.magnitude.0 <= limit)
-            && (!args.up || object.apparent.altitude() >= Angle::ZERO);
+            && (!args.up || object.apparent.altitude() >= night.horizon);
         if !wanted {
             continue;
         }
@@ -136,7 +136,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
     }
     for feature in features {
         let (point, apparent) = night.on_moon(feature);
-        if args.up && apparent.altitude() < Angle::ZERO {
+        if args.up && apparent.altitude() < night.horizon {
             continue;
         }
         let (longitude_deg, latitude_deg) = (feature.longitude.deg(), feature.latitude.deg());

@@ -214,14 +214,7 @@ fn of_scene(
     let mut scene = render::read_scene(path)?;
     scene.air = air.unwrap_or(scene.air);
     let setting = scene.setting()?;
-    let night = stage::night(
-        &setting.instant,
-        &setting.place,
-        setting.tolerance,
-        &scene.air,
-        scene.moon.danjon,
-        catalogs,
-    )?;
+    let night = stage::night_of(&scene, &setting, catalogs)?;
     let layers = Layers { sun: false, moon: false, planets: false, stars: false, ..scene.layers };
     let mut kept = Kept::new(Store::of_user());
     let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_maps(), &mut kept)?;

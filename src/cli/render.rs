@@ -175,16 +175,7 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     let outputs = Outputs::open(&args.output, &args.describe, &args.save_scene)?;
     let mut progress = Progress::new(args.quiet, outputs.steps());
 
-    let night = progress.step("positions", || {
-        stage::night(
-            &setting.instant,
-            &setting.place,
-            setting.tolerance,
-            &scene.air,
-            scene.moon.danjon,
-            catalogs,
-        )
-    })?;
+    let night = progress.step("positions", || stage::night_of(&scene, &setting, catalogs))?;
     if let Some(Look::Object(name)) = &args.look {
         let towards = look::towards(name, &night)?;
         scene.camera.azimuth_deg = towards.azimuth().deg();

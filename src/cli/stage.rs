@@ -6,6 +6,7 @@ use crate::ephemeris::{Ephemeris, EphemerisError};
 use crate::light::earth_shadow::Danjon;
 use crate::light::night::Night;
 use crate::place::Place;
+use crate::scene::{Scene, Setting};
 use crate::sky::SkyState;
 use crate::time::{self, Instant};
 use crate::units::Angle;
@@ -67,4 +68,10 @@ pub fn night(
     let features = catalogs.moon_features()?;
     let night = Night::with_danjon(sky, catalogs.stars()?, air, danjon);
     Ok(night.with_moon_features(features))
+}
+
+/// The sky of a scene, given what its values mean.
+pub fn night_of(scene: &Scene, setting: &Setting, catalogs: &Catalogs) -> Result<Night, CliError> {
+    let Setting { instant, place, tolerance, .. } = setting;
+    night(instant, place, *tolerance, &scene.air, scene.moon.danjon, catalogs)
 }

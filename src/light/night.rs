@@ -118,14 +118,22 @@ impl Night {
         let refraction = air.refraction_at(height_m);
         let sight = SightLines::over(air, height_m);
         let horizon = sight.horizon();
-        let body = |state: &BodyState, spectrum: Spectrum| {
+        let body = |state: &BodyState| {
             let apparent = refraction.apparent_from_horizon(state.dir);
+            let spectrum = irradiance(state, &sky, &eclipse);
             let outside = spectrum.xyzv();
-            let sets_bit_by_bit =
-                air.paths.source_disc && matches!(state.body, Body::Sun | Body::Moon);
-            let ground = match sets_bit_by_bit {
-                true => visible_light(state, &spectrum, &sight, &refraction),
-                false => point_light(apparent.altitude(), &spectrum, &sight, &refraction),
+            let ground = match state.body {
+                Body::Sun if air.paths.source_disc => {
+                    visible_light(state, &spectrum, &sight, &refraction)
+                }
+                Body::Moon if air.paths.source_disc => {
+                    // The Earth, beside the observer, lights the whole disc.
+                    let earthlit = BodyState { dir_to_sun: -state.dir, ..*state };
+                    let sunlight = sunlit_moon(&sky, &eclipse);
+                    visible_light(state, &sunlight, &sight, &refraction)
+                        + visible_light(&earthlit, &earthlit_moon(&sky), &sight, &refraction)
+                }
+                _ => point_light(apparent.altitude(), &spectrum, &sight, &refraction),
             };
             LitObject {
                 kind: Kind::Body(state.body),
@@ -137,8 +145,7 @@ impl Night {
                 ground,
             }
         };
-        let mut objects: Vec<LitObject> =
-            bodies(&sky).map(|state| body(state, irradiance(state, &sky, &eclipse))).collect();
+        let mut objects: Vec<LitObject> = bodies(&sky).map(body).collect();
         objects.extend(sky.satellites.iter().map(|state: &SatelliteState| {
             let light = satellites::light(state);
             let apparent = refraction.apparent_from_horizon(state.dir);
@@ -210,7 +217,8 @@ impl Night {
     }
 
     /// Spectral irradiance of a body outside the air, W m-2 nm-1, on a plane that faces it; of the Sun
-    /// and the Moon what an eclipse leaves.
+    /// and the Moon what an eclipse leaves. Of the Moon it is [what the Sun lights](Night::sunlit_moon)
+    /// and [what the Earth lights](Night::earthlit_moon) together.
     pub fn irradiance(&self, state: &BodyState) -> Spectrum {
         irradiance(state, &self.sky, &self.eclipse)
     }
@@ -220,13 +228,15 @@ impl Night {
         irradiance(state, &self.sky, &Eclipsed::default())
     }
 
-    /// Spectral irradiance of the Moon by the Earth's light alone, W m-2 nm-1; its sunlit part is counted
-    /// too.
+    /// Spectral irradiance of the Moon by the light of the Sun alone, W m-2 nm-1, outside the air, on a
+    /// plane that faces it: what an eclipse leaves of it.
+    pub fn sunlit_moon(&self) -> Spectrum {
+        sunlit_moon(&self.sky, &self.eclipse)
+    }
+
+    /// The same by the light of the Earth alone; the sunlit part of the disc is lit by it too.
     pub fn earthlit_moon(&self) -> Spectrum {
-        let moon = &self.sky.moon.state;
-        let earth =
-            EarthView::of_moon_phase(moon.phase_angle, moon.distance_km, moon.sun_distance_km);
-        earthshine::disc_irradiance(&moon_view(&self.sky), &earth)
+        earthlit_moon(&self.sky)
     }
 
     /// The Sun, the Moon or a planet.
@@ -273,10 +283,7 @@ fn irradiance(state: &BodyState, sky: &SkyState, eclipse: &Eclipsed) -> Spectrum
             let covered = eclipse.sun.map(|covered| covered.irradiance(state.distance_km));
             return covered.unwrap_or_else(|| sun::irradiance(state.distance_km));
         }
-        Body::Moon => {
-            let left = eclipse.moon.as_ref().map_or(Transmittance::CLEAR, |moon| moon.mean);
-            return moon_irradiance(sky) * left;
-        }
+        Body::Moon => return sunlit_moon(sky, eclipse) + earthlit_moon(sky),
         Body::Mercury => Planet::Mercury,
         Body::Venus => Planet::Venus,
         Body::Mars => Planet::Mars,
@@ -298,8 +305,20 @@ fn irradiance(state: &BodyState, sky: &SkyState, eclipse: &Eclipsed) -> Spectrum
     planets::light(planet, &view).spectrum
 }
 
-fn moon_irradiance(sky: &SkyState) -> Spectrum {
-    moon::irradiance(&moon_view(sky))
+fn sunlit_moon(sky: &SkyState, eclipse: &Eclipsed) -> Spectrum {
+    let left = eclipse.moon.as_ref().map_or(Transmittance::CLEAR, |moon| moon.mean);
+    moon::irradiance(&moon_view(sky)) * left
+}
+
+fn earthlit_moon(sky: &SkyState) -> Spectrum {
+    let [to_sun, to_earth] = ShadowedMoon::of(sky).to_sun_and_earth_km();
+    let earth_to_sun = to_sun - to_earth;
+    let earth = EarthView {
+        phase: Angle::from_rad(earth_to_sun.angle_between(-to_earth)),
+        moon_distance_km: to_earth.length(),
+        sun_distance_km: earth_to_sun.length(),
+    };
+    earthshine::disc_irradiance(&moon_view(sky), &earth)
 }
 
 fn moon_view(sky: &SkyState) -> MoonView {

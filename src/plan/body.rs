@@ -236,16 +236,17 @@ impl<'a> SeenBody<'a> {
     /// Spectral irradiance outside the air. Of a globe, what its surface sends by each of its colours, and
     /// what the Earth lights; else all in the first channel.
     fn irradiances(&self) -> [Spectrum; CHANNELS] {
-        // What the Moon hides of the Sun is left out as it is drawn.
-        let irradiance = match self.state.body {
-            Body::Sun => self.night.irradiance_without_eclipse(self.state),
-            _ => self.night.irradiance(self.state),
-        };
         if !self.is_globe() {
+            // What the Moon hides of the Sun is left out as it is drawn.
+            let irradiance = match self.state.body {
+                Body::Sun => self.night.irradiance_without_eclipse(self.state),
+                _ => self.night.irradiance(self.state),
+            };
             return [irradiance, Spectrum::DARK, Spectrum::DARK, Spectrum::DARK];
         }
+        let sunlit = self.night.sunlit_moon();
         let [blue, green, red] =
-            [0, 1, 2].map(|band| irradiance.weighted(|nm| bands::weights(nm)[band]));
+            [0, 1, 2].map(|band| sunlit.weighted(|nm| bands::weights(nm)[band]));
         [red, green, blue, self.night.earthlit_moon()]
     }
 
