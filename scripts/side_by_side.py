@@ -36,17 +36,22 @@ PLACES = {
 }
 # Name, instant (UTC), place, field (degrees across), pixels drawn across, exposure of ours (stops).
 SCENES = [
-    ("crescent", "2026-07-17T04:00:00", "Flagstaff", 0.65, 640, 0.0),
-    ("quarter", "2026-08-20T03:30:00", "Flagstaff", 0.60, 2250, -1.0),
-    ("low", "2026-08-29T05:27:00", "Honolulu", 0.65, 640, 0.0),
-    ("day", "2026-06-23T00:30:00", "Flagstaff", 0.65, 640, 0.0),
-    ("partial", "2026-03-03T10:30:00", "Flagstaff", 0.65, 640, 0.0),
-    ("total", "2026-03-03T11:33:42", "Flagstaff", 0.65, 640, 0.0),
-    ("full", "2026-05-31T07:30:00", "Flagstaff", 0.65, 640, -1.0),
+    ("crescent", "2026-07-17T04:00:00", "Flagstaff", 0.65, 600, 0.0),
+    ("quarter", "2026-08-20T03:30:00", "Flagstaff", 0.60, 2250, -2.0),
+    ("low", "2026-08-29T05:27:00", "Honolulu", 0.65, 600, 0.0),
+    ("day", "2026-06-23T00:30:00", "Flagstaff", 0.65, 600, 0.0),
+    ("partial", "2026-03-03T10:30:00", "Flagstaff", 0.65, 600, 0.0),
+    ("total", "2026-03-03T11:33:42", "Flagstaff", 0.65, 600, 0.0),
+    ("full", "2026-05-31T07:30:00", "Flagstaff", 0.65, 600, -2.0),
 ]
-# Craters looked for on both pictures, and the corner of the 900-pixel details.
+# What is cut out of the quarter, at full size: left, top, right, bottom.
+CROP = (1000, 900, 1900, 1800)
+DETAIL = (1060, 330, 1660, 930)
+# Scenes whose light is shown as it is, too.
+PLAIN = ("low", "total", "full")
+# Craters looked for on both pictures.
 CRATERS = {
-    "quarter": ["Theophilus", "Posidonius", "Plinius", "Aristoteles", "Langrenus"],
+    "quarter": ["Theophilus", "Posidonius", "Plinius", "Aristoteles", "Eudoxus"],
     "full": ["Tycho", "Copernicus", "Aristarchus", "Kepler", "Proclus"],
 }
 
@@ -191,6 +196,20 @@ def brightness(picture):
     return np.asarray(picture, float) @ [0.299, 0.587, 0.114]
 
 
+def as_a_screen_would(light):
+    """Brightness of light, 0 to 255, with the brightest few thousandths white: no eye, no glare."""
+    return 255.0 * np.clip(light["Y"] / np.percentile(light["Y"], 99.7), 0.0, 1.0) ** (1 / 2.2)
+
+
+def plain(light):
+    """The light as a picture, white as bright as its brightest few thousandths: no eye, no glare."""
+    to_rgb = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
+    rgb = np.stack([light[c] for c in "XYZ"], axis=-1) @ to_rgb.T
+    rgb = np.clip(rgb / np.percentile(light["Y"], 99.7), 0.0, 1.0)
+    encoded = np.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * rgb ** (1 / 2.4) - 0.055)
+    return Image.fromarray((255 * encoded).round().astype("uint8"))
+
+
 def sample(image, x, y):
     """Bilinear; pixel centres at half integers."""
     x, y = np.clip(x - 0.5, 0, image.shape[1] - 1.001), np.clip(y - 0.5, 0, image.shape[0] - 1.001)
@@ -250,9 +269,8 @@ def circle(x, y):
     return -c / 2, -d / 2, r, r
 
 
-def measure(picture, radius, whole):
+def measure(image, radius, whole):
     """Ellipse of the limb (a circle where only a part is lit), and the middle of the lit limb."""
-    image = brightness(picture)
     angles, x, y, depth = limb(image, radius)
     lit = depth > (0.10 if whole else 0.25) * np.percentile(depth, 95)
     shape = (ellipse if whole else circle)(x[lit], y[lit])
@@ -310,7 +328,9 @@ def pyephem(instant, place):
     moon, sun = ephem.Moon(site), ephem.Sun(site)
     deg = math.degrees
     return dict(az=deg(moon.az), alt=deg(moon.alt), sun_az=deg(sun.az), sun_alt=deg(sun.alt),
-                size=float(moon.size) / 3600.0, lit=float(moon.phase))
+                size=float(moon.size) / 3600.0, lit=float(moon.phase),
+                libration_lon=deg(moon.libration_long), libration_lat=deg(moon.libration_lat),
+                colongitude=deg(moon.colong), subsolar_lat=deg(moon.subsolar_lat))
 
 
 def number(text):
@@ -325,30 +345,44 @@ def cell(value, digits):
 def numbers_table(row, describe, said, third, sun):
     moon = next(o for o in describe["objects"] if o["name"] == "Moon")
     s = {key: number(value) for key, value in said.items()}
-    elongation = 180.0 - row["phase_angle_deg"]
+    phase = phase_at_place(row)
     rows = [
         ("azimuth, deg", row["az_deg"], s["azimuth-geometric"], third["az"], 4),
         ("altitude without air, deg", row["alt_deg_airless"], s["altitude-geometric"], third["alt"], 4),
         ("altitude through air, deg", moon["apparent_altitude_deg"], s["altitude"], None, 4),
         ("distance from the place, km", row["topo_dist_km"], s["distance"] * AU_KM, None, 0),
         ("diameter, arcmin", row["topo_ang_diam_arcsec"] / 60, s["size-dd"] * 60, third["size"] * 60, 3),
-        ("phase angle, deg (ours from the centre of the Earth)", row["phase_angle_deg"], s["phase-angle-deg"], None, 2),
-        ("lit, %", row["illum_frac"] * 100, s["phase"] * 100, third["lit"], 2),
-        ("libration in longitude, deg", row["topo_libr_lon_deg"], wrap(s["libration_l"]), None, 3),
-        ("libration in latitude, deg", row["topo_libr_lat_deg"], wrap(s["libration_b"]), None, 3),
-        ("colongitude, deg", row["colongitude_deg"], (90.0 - s["subsolar_l"]) % 360, None, 3),
-        ("latitude under the Sun, deg", row["subsolar_lat_deg"], wrap(s["subsolar_b"]), None, 3),
-        ("position angle of the axis, deg", wrap(row["topo_axis_PA_deg"]), wrap(s["pa_axis"]), None, 3),
+        ("phase angle from the place, deg", phase, s["phase-angle-deg"], None, 2),
+        ("lit, seen from the place, %", 50 * (1 + math.cos(math.radians(phase))), s["phase"] * 100, None, 2),
+        ("lit, seen from the Earth's centre, %", row["illum_frac"] * 100, None, third["lit"], 2),
+        ("libration in longitude from the Earth's centre, deg", row["geo_libr_lon_deg"], wrap(s["libration_l"]), third["libration_lon"], 3),
+        ("libration in latitude from the Earth's centre, deg", row["geo_libr_lat_deg"], wrap(s["libration_b"]), third["libration_lat"], 3),
+        ("libration in longitude from the place, deg", row["topo_libr_lon_deg"], None, None, 3),
+        ("libration in latitude from the place, deg", row["topo_libr_lat_deg"], None, None, 3),
+        ("colongitude, deg", row["colongitude_deg"], (90.0 - s["subsolar_l"]) % 360, third["colongitude"], 3),
+        ("latitude under the Sun, deg", row["subsolar_lat_deg"], wrap(s["subsolar_b"]), third["subsolar_lat"], 3),
+        ("position angle of the axis from the Earth's centre, deg", wrap(row["axis_PA_deg"]), wrap(s["pa_axis"]), None, 3),
+        ("position angle of the axis from the place, deg", wrap(row["topo_axis_PA_deg"]), None, None, 3),
         ("magnitude outside the air", moon["magnitude_v"], s["vmag"], None, 2),
         ("magnitude through the air", ground_magnitude(moon), s["vmage"], None, 2),
     ]
     lines = ["| | Nocturne | Stellarium | difference | PyEphem |", "|---|---|---|---|---|"]
     for label, ours, theirs, other, digits in rows:
+        if theirs is None:
+            lines.append(f"| {label} | {cell(ours, digits)} | | | {cell(other, digits)} |")
+            continue
         difference = theirs - ours
         if "deg" in label and abs(difference) > 180:
             difference = wrap(difference)
         lines.append(f"| {label} | {cell(ours, digits)} | {cell(theirs, digits)} | {difference:+.{digits}f} | {cell(other, digits)} |")
     return lines
+
+
+def phase_at_place(row):
+    """Angle at the Moon between the place and the Sun, degrees: between the points below both."""
+    a, b = math.radians(row["topo_libr_lat_deg"]), math.radians(row["subsolar_lat_deg"])
+    d = math.radians(row["topo_libr_lon_deg"] - row["subsolar_lon_deg"])
+    return math.degrees(math.acos(math.sin(a) * math.sin(b) + math.cos(a) * math.cos(b) * math.cos(d)))
 
 
 def ground_magnitude(moon):
@@ -359,20 +393,45 @@ def ground_magnitude(moon):
     return moon["magnitude_v"] - 2.5 * math.log10(ground / outside)
 
 
-def measured_table(name, ours, theirs, expected_px, limb_expected):
+def flattening(describe):
+    """Height of the Moon through air over that without, by our places on it and by Saemundsson 1986.
+
+    The formula, in arcminutes at 1010 mbar and 10 degrees C, is that of Meeus 1998, (16.4), recalled.
+    """
+    moon = next(o for o in describe["objects"] if o["name"] == "Moon")
+    near = [f for f in describe["moon_features"] if f["is_on_near_side"]]
+    airless = np.array([f["altitude_deg"] for f in near])
+    through = np.array([f["apparent_altitude_deg"] for f in near])
+    fit = np.polyfit(airless - moon["altitude_deg"], through, 2)
+    pressure, temperature = weather(describe["place"]["height_m"])
+
+    def refraction_deg(h):
+        scale = pressure / 1010 * 283 / (273 + temperature)
+        return 1.02 / 60 * scale / math.tan(math.radians(h + 10.3 / (h + 5.11)))
+
+    half = 0.2575
+    h = moon["altitude_deg"]
+    return fit[1], 1 + (refraction_deg(h + half) - refraction_deg(h - half)) / (2 * half)
+
+
+def measured_table(name, describe, ours, theirs, expected_px, limb_expected):
     whole = name in ("low", "total", "full")
     a, mid_a, span_a = measure(ours, expected_px, whole)
     b, mid_b, span_b = measure(theirs, expected_px, whole)
-    lines = ["| measured on the pictures | Nocturne | Stellarium | difference |", "|---|---|---|---|"]
+    lines = ["| measured on our EXR and Stellarium's picture | Nocturne | Stellarium | difference |", "|---|---|---|---|"]
 
     def put(label, u, v, digits):
         lines.append(f"| {label} | {u:.{digits}f} | {v:.{digits}f} | {v - u:+.{digits}f} |")
 
-    put("centre right of the middle, px", a[0] - ours.width / 2, b[0] - theirs.width / 2, 2)
-    put("centre below the middle, px", a[1] - ours.height / 2, b[1] - theirs.height / 2, 2)
+    put("centre right of the middle, px", a[0] - ours.shape[1] / 2, b[0] - theirs.shape[1] / 2, 2)
+    put("centre below the middle, px", a[1] - ours.shape[0] / 2, b[1] - theirs.shape[0] / 2, 2)
     if whole:
         put(f"half width, px (expected {expected_px:.1f})", a[2], b[2], 1)
         put("height over width", a[3] / a[2], b[3] / b[2], 4)
+        if name == "low":
+            own, formula = flattening(describe)
+            put(f"height over the diameter without air (by `--describe` {own:.3f}, by Saemundsson {formula:.3f})",
+                a[3] / expected_px, b[3] / expected_px, 3)
     else:
         put(f"radius, px (expected {expected_px:.1f})", a[2], b[2], 1)
     if name in ("crescent", "quarter", "day"):
@@ -393,6 +452,8 @@ def colour_table(name, light, ours, theirs, radius):
     lines.append(f"| sky beside the Moon, median | {np.median(light['Y'][sky]):.3g} |")
     for label, share in (("brightest 1 %", 99), ("median", 50), ("darkest 1 %", 1)):
         lines.append(f"| disc, {label} | {np.percentile(luminances, share):.3g} |")
+    low, high = np.percentile(luminances, [5, 95])
+    lines.append(f"| disc, 95th over 5th hundredth | {high / low:.1f} |")
     total = sum(light[c][disc].sum() for c in "XYZ")
     lines.append(f"| chromaticity of the disc's light, x y | {light['X'][disc].sum() / total:.3f} {light['Y'][disc].sum() / total:.3f} |")
 
@@ -406,19 +467,18 @@ def colour_table(name, light, ours, theirs, radius):
     lines.append(f"| sky beside it | {mean(ours, sky)} | {mean(theirs, sky)} |")
     spread = lambda p: np.percentile(luminance(p)[disc], [5, 95])
     a, b = spread(ours), spread(theirs)
-    lines.append(f"| luminance of the disc on the screen, 95th over 5th of a hundred | {a[1] / max(a[0], 1e-4):.1f} | {b[1] / max(b[0], 1e-4):.1f} |")
+    lines.append(f"| luminance on the screen, 95th over 5th hundredth of the disc | {a[1] / max(a[0], 1e-4):.1f} | {b[1] / max(b[0], 1e-4):.1f} |")
     return lines
 
 
 def crater_table(name, describe, ours, theirs, px_per_deg):
-    a, b = brightness(ours), brightness(theirs)
     features = {f["name"]: f for f in describe["moon_features"]}
-    half, reach = (30, 24) if ours.width > 1000 else (14, 12)
+    half, reach = (30, 24) if ours.shape[0] > 1000 else (14, 12)
     lines = ["| crater | x, y by `--describe`, px | moved on Stellarium's, px | that is, arcsec | correlation |",
              "|---|---|---|---|---|"]
     for crater in CRATERS[name]:
         f = features[crater]
-        dx, dy, score = find_patch(a, b, f["x_px"], f["y_px"], half, reach)
+        dx, dy, score = find_patch(ours, theirs, f["x_px"], f["y_px"], half, reach)
         arcsec = math.hypot(dx, dy) / px_per_deg * 3600
         lines.append(f"| {crater} | {f['x_px']:.1f}, {f['y_px']:.1f} | {dx:+.1f}, {dy:+.1f} | {arcsec:.1f} | {score:.2f} |")
     return lines
@@ -428,8 +488,7 @@ def crater_table(name, describe, ours, theirs, px_per_deg):
 
 
 def save(picture, name):
-    picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.FLOYDSTEINBERG).save(
-        PICTURES / name, optimize=True)
+    picture.save(PICTURES / name, optimize=True)
 
 
 def marked(picture, describe, box, names):
@@ -440,8 +499,8 @@ def marked(picture, describe, box, names):
         if f["name"] in names:
             x, y = f["x_px"] - box[0], f["y_px"] - box[1]
             r = f["diameter_km"] / 2 / 1737.4 * 0.258 / describe["camera"]["field_of_view_deg"] * describe["camera"]["width_px"]
-            draw.ellipse([x - r, y - r, x + r, y + r], outline=(255, 60, 60))
-            draw.text((x + r + 3, y - 6), f["name"], fill=(255, 90, 90))
+            draw.ellipse([x - r, y - r, x + r, y + r], outline=(255, 0, 0), width=2)
+            draw.text((x + r + 3, y - 6), f["name"], fill=(255, 0, 0))
     return detail
 
 
@@ -487,19 +546,18 @@ def main():
         sun = next(o for o in describe["objects"] if o["name"] == "Sun")
         limb_at = bright_limb_from_up(sun["azimuth_deg"], sun["altitude_deg"], row["az_deg"], row["alt_deg_airless"])
         lines = numbers_table(row, describe, said[name], third, sun)
-        lines += [""] + measured_table(name, ours, theirs, radius, limb_at)
+        lines += [""] + measured_table(name, describe, as_a_screen_would(light), brightness(theirs), radius, limb_at)
         if name in CRATERS:
-            lines += [""] + crater_table(name, describe, ours, theirs, px / field)
+            lines += [""] + crater_table(name, describe, as_a_screen_would(light), brightness(theirs), px / field)
         lines += [""] + colour_table(name, light, ours, theirs, radius)
         page = write_table(page, name, lines)
-        for who, picture in (("ours", ours), ("stellarium", theirs)):
+        for who, picture in (("ours", ours), ("stellarium", theirs), ("light", plain(light))):
             if name == "quarter":
-                save(picture.resize((900, 900), Image.Resampling.LANCZOS), f"quarter_{who}.png")
-                box = (1000, 900, 1900, 1800)
-                save(picture.crop(box), f"quarter_detail_{who}.png")
-                box = (1150, 350, 1750, 950)
-                save(marked(picture, describe, box, CRATERS[name]), f"quarter_names_{who}.png")
-            else:
+                if who != "light":
+                    save(picture.resize((600, 600), Image.Resampling.LANCZOS), f"quarter_{who}.png")
+                    save(picture.crop(CROP), f"quarter_crop_{who}.png")
+                save(marked(picture, describe, DETAIL, CRATERS[name]), f"quarter_detail_{who}.png")
+            elif who != "light" or name in PLAIN:
                 save(picture, f"{name}_{who}.png")
     PAGE.write_text(page)
     size = sum(p.stat().st_size for p in PICTURES.iterdir())
