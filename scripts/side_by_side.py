@@ -106,8 +106,10 @@ def stellarium_script(scenes, out):
         'core.setProjectionMode("ProjectionStereographic")',
     ]:
         lines.append(f"attempt(function() {{ {call}; }});")
-    for name, instant, place, field, *_ in scenes:
+    for index, (name, instant, place, field, *_) in enumerate(scenes):
         p = PLACES[place]
+        # Its textures come late, and until then one is drawn in the place of another.
+        patience_s = 15 if index == 0 else 4
         pressure, temperature = weather(p["height_m"])
         lines += [
             f"core.setObserverLocation({p['lon']},{p['lat']},{p['height_m']},0,\"{place}\",\"Earth\");",
@@ -118,7 +120,7 @@ def stellarium_script(scenes, out):
             # Said twice: a first jump may start from where the Moon stood before.
             "StelMovementMgr.setFlagTracking(true); core.wait(1); core.moveToSelectedObject(0);",
             "core.wait(0.5); core.moveToSelectedObject(0);",
-            f"StelMovementMgr.zoomTo({field},0); core.wait(4);",
+            f"StelMovementMgr.zoomTo({field},0); core.wait({patience_s});",
             f'core.screenshot("{name}",false,"{out}",true); core.wait(1);',
             'var m = core.getObjectInfo("Moon");',
             f'for (var k in m) core.output("DATA {name} " + k + " = " + m[k] + "\\n");',
@@ -177,9 +179,18 @@ def run_stellarium(scenes, px):
         if not path.exists():
             sys.exit(f"Stellarium left no picture {path}; {folder / 'log.txt'} may say why.")
         pictures[scene[0]] = Image.open(path).convert("RGB")
+        if scene[0] in ("quarter", "full") and is_violet(pictures[scene[0]]):
+            sys.exit(f"Stellarium drew {path} before its textures were there: run this again.")
         if pictures[scene[0]].size != (px, px):
             print(f"{path} is {pictures[scene[0]].size} instead of {px} pixels", file=sys.stderr)
     return said, pictures
+
+
+def is_violet(picture):
+    """Whether the bright part is as violet as a map of slopes, which stands in for a late texture."""
+    pixels = np.asarray(picture, float).reshape(-1, 3)
+    bright = pixels[pixels.sum(axis=1) >= np.percentile(pixels.sum(axis=1), 90)].mean(axis=0)
+    return bright[2] > 1.4 * bright[1]
 
 
 # --- Measuring pictures -------------------------------------------------------------------------
@@ -402,7 +413,7 @@ def flattening(describe):
     near = [f for f in describe["moon_features"] if f["is_on_near_side"]]
     airless = np.array([f["altitude_deg"] for f in near])
     through = np.array([f["apparent_altitude_deg"] for f in near])
-    fit = np.polyfit(airless - moon["altitude_deg"], through, 2)
+    fit = np.polyfit(airless - moon["altitude_deg"], through, 3)
     pressure, temperature = weather(describe["place"]["height_m"])
 
     def refraction_deg(h):
@@ -411,7 +422,8 @@ def flattening(describe):
 
     half = 0.2575
     h = moon["altitude_deg"]
-    return fit[1], 1 + (refraction_deg(h + half) - refraction_deg(h - half)) / (2 * half)
+    chord = np.polyval(fit, half) - np.polyval(fit, -half)
+    return chord / (2 * half), 1 + (refraction_deg(h + half) - refraction_deg(h - half)) / (2 * half)
 
 
 def measured_table(name, describe, ours, theirs, expected_px, limb_expected):
