@@ -2,7 +2,7 @@
 """The Moon of the same instants and places by this program and by Stellarium, side by side.
 
 Both draw it, both say where it is, and both pictures are measured by the same code: the ellipse of the
-limb, the middle of the lit limb, and where craters of one picture stand on the other. PyEphem is asked
+limb, the axis of its lit part, and where craters of one picture stand on the other. PyEphem is asked
 too, as a third opinion of places. The pictures go to docs/moon/side_by_side/, the tables into
 docs/moon_side_by_side.md between its marks. Run by scripts/side_by_side.sh, which installs what this
 needs: numpy, pillow, OpenEXR, ephem, Stellarium and Xvfb.
@@ -37,7 +37,7 @@ PLACES = {
 # Name, instant (UTC), place, field (degrees across), pixels drawn across, exposure of ours (stops).
 SCENES = [
     ("crescent", "2026-07-17T04:00:00", "Flagstaff", 0.65, 600, 0.0),
-    ("quarter", "2026-08-20T03:30:00", "Flagstaff", 0.60, 2250, -2.0),
+    ("quarter", "2026-08-20T03:30:00", "Flagstaff", 0.56, 2250, -2.0),
     ("low", "2026-08-29T05:27:00", "Honolulu", 0.65, 600, 0.0),
     ("day", "2026-06-23T00:30:00", "Flagstaff", 0.65, 600, 0.0),
     ("partial", "2026-03-03T10:30:00", "Flagstaff", 0.65, 600, 0.0),
@@ -46,7 +46,7 @@ SCENES = [
 ]
 # What is cut out of the quarter, at full size: left, top, right, bottom.
 CROP = (1000, 900, 1900, 1800)
-DETAIL = (1060, 330, 1660, 930)
+DETAIL = (1120, 270, 1720, 870)
 # Scenes whose light is shown as it is, too.
 PLAIN = ("low", "total", "full")
 # Craters looked for on both pictures.
@@ -166,6 +166,8 @@ def run_stellarium(scenes, px):
                 ["stellarium", "--user-dir", folder, "--startup-script", script],
                 env=environment, stdout=log, stderr=log, timeout=240, check=False,
             )
+    except subprocess.TimeoutExpired:
+        sys.exit(f"Stellarium did not end its script in four minutes; {folder / 'log.txt'} may say why.")
     finally:
         server.terminate()
         server.wait()
@@ -245,8 +247,9 @@ def limb(image, radius):
     fall = profile[:, :-width] - profile[:, width:]
     best = fall.argmax(axis=1)
     # The middle of the fall that is half as steep or more, for a fraction of a pixel.
+    steps = np.arange(fall.shape[1])
     middle = np.array([
-        np.average(np.arange(len(f)), weights=np.where(f > 0.5 * f[b], f, 0.0) * (abs(np.arange(len(f)) - b) <= 2 * width))
+        np.average(steps, weights=np.where((f >= 0.5 * f[b]) & (abs(steps - b) <= 2 * width), f, 0.0))
         for f, b in zip(np.maximum(fall, 1e-9), best)
     ])
     r = radii[0] + (middle + width / 2) * (radii[1] - radii[0])
@@ -281,12 +284,27 @@ def circle(x, y):
 
 
 def measure(image, radius, whole):
-    """Ellipse of the limb (a circle where only a part is lit), and the middle of the lit limb."""
+    """Ellipse of the limb (a circle where only a part is lit), axis and length of the lit limb."""
     angles, x, y, depth = limb(image, radius)
     lit = depth > (0.10 if whole else 0.25) * np.percentile(depth, 95)
     shape = (ellipse if whole else circle)(x[lit], y[lit])
-    middle = math.degrees(math.atan2(np.sin(angles[lit]).sum(), np.cos(angles[lit]).sum())) % 360
-    return shape, middle, lit.mean() * 360
+    return shape, lit_axis(angles, depth), lit.mean() * 360.0
+
+
+def lit_axis(angles, depth):
+    """Axis about which the lit limb is most nearly its own mirror image, degrees from up, anticlockwise.
+
+    Bright and dark ground at the limb leave it uncertain by some 1.5 degrees.
+    """
+    depth = np.clip(depth, 0.0, 0.4 * np.percentile(depth, 95))
+    about = math.degrees(math.atan2((depth * np.sin(angles)).sum(), (depth * np.cos(angles)).sum()))
+    aside = np.arange(0.0, 120.0)
+
+    def at(degrees):
+        return np.interp(degrees, np.degrees(angles), depth, period=360.0)
+
+    axes = about + np.arange(-20.0, 20.0, 0.25)
+    return axes[np.argmin([((at(c + aside) - at(c - aside)) ** 2).sum() for c in axes])] % 360.0
 
 
 def find_patch(ours, theirs, x, y, half, reach):
@@ -301,7 +319,8 @@ def find_patch(ours, theirs, x, y, half, reach):
             if other.shape != patch.shape:
                 continue
             other = other - other.mean()
-            score[dy + reach, dx + reach] = (patch * other).sum() / math.sqrt((patch**2).sum() * (other**2).sum() + 1e-12)
+            size = math.sqrt((patch**2).sum() * (other**2).sum() + 1e-12)
+            score[dy + reach, dx + reach] = (patch * other).sum() / size
     best = np.unravel_index(score.argmax(), score.shape)
     offset = []
     for axis in (1, 0):
@@ -353,7 +372,7 @@ def cell(value, digits):
     return "" if value is None or math.isnan(value) else f"{value:.{digits}f}"
 
 
-def numbers_table(row, describe, said, third, sun):
+def numbers_table(row, describe, said, third):
     moon = next(o for o in describe["objects"] if o["name"] == "Moon")
     s = {key: number(value) for key, value in said.items()}
     phase = phase_at_place(row)
@@ -366,13 +385,16 @@ def numbers_table(row, describe, said, third, sun):
         ("phase angle from the place, deg", phase, s["phase-angle-deg"], None, 2),
         ("lit, seen from the place, %", 50 * (1 + math.cos(math.radians(phase))), s["phase"] * 100, None, 2),
         ("lit, seen from the Earth's centre, %", row["illum_frac"] * 100, None, third["lit"], 2),
-        ("libration in longitude from the Earth's centre, deg", row["geo_libr_lon_deg"], wrap(s["libration_l"]), third["libration_lon"], 3),
-        ("libration in latitude from the Earth's centre, deg", row["geo_libr_lat_deg"], wrap(s["libration_b"]), third["libration_lat"], 3),
+        ("libration in longitude from the Earth's centre, deg", row["geo_libr_lon_deg"],
+         wrap(s["libration_l"]), third["libration_lon"], 3),
+        ("libration in latitude from the Earth's centre, deg", row["geo_libr_lat_deg"],
+         wrap(s["libration_b"]), third["libration_lat"], 3),
         ("libration in longitude from the place, deg", row["topo_libr_lon_deg"], None, None, 3),
         ("libration in latitude from the place, deg", row["topo_libr_lat_deg"], None, None, 3),
         ("colongitude, deg", row["colongitude_deg"], (90.0 - s["subsolar_l"]) % 360, third["colongitude"], 3),
         ("latitude under the Sun, deg", row["subsolar_lat_deg"], wrap(s["subsolar_b"]), third["subsolar_lat"], 3),
-        ("position angle of the axis from the Earth's centre, deg", wrap(row["axis_PA_deg"]), wrap(s["pa_axis"]), None, 3),
+        ("position angle of the axis from the Earth's centre, deg", wrap(row["axis_PA_deg"]),
+         wrap(s["pa_axis"]), None, 3),
         ("position angle of the axis from the place, deg", wrap(row["topo_axis_PA_deg"]), None, None, 3),
         ("magnitude outside the air", moon["magnitude_v"], s["vmag"], None, 2),
         ("magnitude through the air", ground_magnitude(moon), s["vmage"], None, 2),
@@ -447,7 +469,7 @@ def measured_table(name, describe, ours, theirs, expected_px, limb_expected):
     else:
         put(f"radius, px (expected {expected_px:.1f})", a[2], b[2], 1)
     if name in ("crescent", "quarter", "day"):
-        put(f"middle of the lit limb, deg from up (Sun at {limb_expected:.2f})", mid_a, mid_b, 1)
+        put(f"axis of the lit limb from up, to 1.5 deg (Sun at {limb_expected:.2f})", mid_a, mid_b, 1)
         put("lit limb spans, deg", span_a, span_b, 0)
     return lines
 
@@ -456,29 +478,29 @@ def colour_table(name, light, ours, theirs, radius):
     """Light of ours, and mean colours of both pictures inside the disc and beside it."""
     y, x = np.indices(light["Y"].shape)
     away = np.hypot(x + 0.5 - light["Y"].shape[1] / 2, y + 0.5 - light["Y"].shape[0] / 2)
-    disc, sky = away < 0.80 * radius, away > 1.25 * radius
-    if sky.sum() < 100:
-        sky = away > 1.08 * radius
+    disc = away < (0.85 if name == "low" else 0.97) * radius
+    sky = away > 1.1 * radius
     luminances = light["Y"][disc]
     lines = ["| light of ours (EXR), cd/m2 | |", "|---|---|"]
     lines.append(f"| sky beside the Moon, median | {np.median(light['Y'][sky]):.3g} |")
     for label, share in (("brightest 1 %", 99), ("median", 50), ("darkest 1 %", 1)):
         lines.append(f"| disc, {label} | {np.percentile(luminances, share):.3g} |")
-    low, high = np.percentile(luminances, [5, 95])
-    lines.append(f"| disc, 95th over 5th hundredth | {high / low:.1f} |")
+    whole = name in ("low", "total", "full")
+    if whole:
+        low, high = np.percentile(luminances, [5, 95])
+        lines.append(f"| disc, 95th over 5th hundredth | {high / low:.1f} |")
     total = sum(light[c][disc].sum() for c in "XYZ")
     lines.append(f"| chromaticity of the disc's light, x y | {light['X'][disc].sum() / total:.3f} {light['Y'][disc].sum() / total:.3f} |")
 
     def mean(picture, mask):
-        scale = picture.width / light["Y"].shape[1]
-        assert scale == 1.0
         return " ".join(f"{v:.0f}" for v in np.asarray(picture, float)[mask].mean(axis=0))
 
     lines += ["", "| mean sRGB of the pictures | Nocturne | Stellarium |", "|---|---|---|"]
     lines.append(f"| disc | {mean(ours, disc)} | {mean(theirs, disc)} |")
     lines.append(f"| sky beside it | {mean(ours, sky)} | {mean(theirs, sky)} |")
-    spread = lambda p: np.percentile(luminance(p)[disc], [5, 95])
-    a, b = spread(ours), spread(theirs)
+    if not whole:
+        return lines
+    a, b = (np.percentile(luminance(picture)[disc], [5, 95]) for picture in (ours, theirs))
     lines.append(f"| luminance on the screen, 95th over 5th hundredth of the disc | {a[1] / max(a[0], 1e-4):.1f} | {b[1] / max(b[0], 1e-4):.1f} |")
     return lines
 
@@ -503,14 +525,14 @@ def save(picture, name):
     picture.save(PICTURES / name, optimize=True)
 
 
-def marked(picture, describe, box, names):
-    """A detail with a ring where `--describe` says that a crater is."""
+def marked(picture, describe, box, names, radius):
+    """A detail with a ring where `--describe` says that a crater is, on a Moon of this radius, pixels."""
     detail = picture.crop(box)
     draw = ImageDraw.Draw(detail)
     for f in describe["moon_features"]:
         if f["name"] in names:
             x, y = f["x_px"] - box[0], f["y_px"] - box[1]
-            r = f["diameter_km"] / 2 / 1737.4 * 0.258 / describe["camera"]["field_of_view_deg"] * describe["camera"]["width_px"]
+            r = f["diameter_km"] / 2 / 1737.4 * radius
             draw.ellipse([x - r, y - r, x + r, y + r], outline=(255, 0, 0), width=2)
             draw.text((x + r + 3, y - 6), f["name"], fill=(255, 0, 0))
     return detail
@@ -557,7 +579,7 @@ def main():
         radius = row["topo_ang_diam_arcsec"] / 7200 / field * px
         sun = next(o for o in describe["objects"] if o["name"] == "Sun")
         limb_at = bright_limb_from_up(sun["azimuth_deg"], sun["altitude_deg"], row["az_deg"], row["alt_deg_airless"])
-        lines = numbers_table(row, describe, said[name], third, sun)
+        lines = numbers_table(row, describe, said[name], third)
         lines += [""] + measured_table(name, describe, as_a_screen_would(light), brightness(theirs), radius, limb_at)
         if name in CRATERS:
             lines += [""] + crater_table(name, describe, as_a_screen_would(light), brightness(theirs), px / field)
@@ -568,7 +590,7 @@ def main():
                 if who != "light":
                     save(picture.resize((600, 600), Image.Resampling.LANCZOS), f"quarter_{who}.png")
                     save(picture.crop(CROP), f"quarter_crop_{who}.png")
-                save(marked(picture, describe, DETAIL, CRATERS[name]), f"quarter_detail_{who}.png")
+                save(marked(picture, describe, DETAIL, CRATERS[name], radius), f"quarter_detail_{who}.png")
             elif who != "light" or name in PLAIN:
                 save(picture, f"{name}_{who}.png")
     PAGE.write_text(page)
