@@ -6,7 +6,7 @@ NOCTURNE = target/release/nocturne
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
 
-.PHONY: sky test lint goldens pictures classic kernels pack peers clean
+.PHONY: sky test lint goldens pictures side_by_side classic kernels pack peers clean
 
 sky: driver
 	$(NOCTURNE) render --at tonight --place "$(PLACE)" --look S --altitude 27 --fov 100 \
@@ -41,6 +41,10 @@ pictures: driver
 	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1.5 -o docs/moon/quarter.png
 	$(NOCTURNE) render --at 2026-03-03T11:05:00Z $(MOON) -o docs/moon/eclipse.png
 	$(NOCTURNE) render --at 2026-07-17T04:00:00Z $(MOON) --exposure 5 -o docs/moon/earthshine.png
+
+# Draws the Moon beside Stellarium's: docs/moon_side_by_side.md. Installs Stellarium; three minutes.
+side_by_side: driver
+	scripts/side_by_side.sh
 
 # Compares the classic sky models with ours: docs/classic_skies.md and its picture.
 classic:

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Sees to it that the machine can link a Rust program (`linker`) or draw with Vulkan (`adapter`):
-# installs the Debian packages if this user may, and names them otherwise.
+# Sees to it that the machine can link a Rust program (`linker`), draw with Vulkan (`adapter`), or run
+# Stellarium without a screen (`stellarium`): installs the Debian packages if this user may, and names them otherwise.
 set -u
 
 case "${1:-}" in
@@ -15,8 +15,17 @@ adapter)
     purpose="a Vulkan driver that draws in software, since no graphics adapter was found"
     needed=0
     ;;
+stellarium)
+    if command -v stellarium >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1 &&
+        python3 -c "import ensurepip" 2>/dev/null; then
+        exit 0
+    fi
+    packages="stellarium xvfb python3-venv"
+    purpose="the planetarium to compare with, a screen for it, and Python to measure"
+    needed=1
+    ;;
 *)
-    echo "usage: $0 linker|adapter" >&2
+    echo "usage: $0 linker|adapter|stellarium" >&2
     exit 2
     ;;
 esac
