@@ -187,8 +187,9 @@ fn beside_edges(at: vec2f) -> f32 {
 struct Sampling {
     // Samples, none outside, and the turn of their lattice.
     lattice: vec2u,
-    // Whether no limb and no edge of a ring is so near that its colours come apart.
-    is_inside: bool,
+    // Whether its colours are taken together: no limb and no edge of a ring is near, and the disc is nearly
+    // full, so that what the middle colour wins at one limb it loses at the other.
+    is_together: bool,
 }
 
 // As `lattice_at` for a planet.
@@ -210,7 +211,8 @@ fn planet_sampling(middle: vec2f) -> Sampling {
     }
     let is_inside = low > margin && high < -margin && beside > disc.edge
         && abs(beside_occluder(at)) > margin;
-    return Sampling(select(disc.samples.zw, disc.samples.xy, is_inside), is_inside);
+    let is_full = disc.to_sun.z < -0.9;
+    return Sampling(select(disc.samples.zw, disc.samples.xy, is_inside), is_inside && is_full);
 }
 
 @fragment
@@ -223,7 +225,7 @@ fn planet_fragment(@builtin(position) position: vec4f) -> @location(0) Luminance
     for (var k = 0u; k < count; k++) {
         let row = (k * sampling.lattice.y) % count;
         let pixel = first + (vec2f(f32(k), f32(row)) + 0.5) / f32(count);
-        if sampling.is_inside {
+        if sampling.is_together {
             // All colours of a smooth surface as the middle one.
             let at = point_at(disc.bands / 2u, across_at(pixel));
             shapes += select(planet_at(at.xy), 0.0, beside_occluder(at) < 0.0);
@@ -231,7 +233,7 @@ fn planet_fragment(@builtin(position) position: vec4f) -> @location(0) Luminance
             sum += planet_light(pixel);
         }
     }
-    if sampling.is_inside {
+    if sampling.is_together {
         sum = luminance_at(across_at(first + 0.5)) * shapes;
     }
     return sum / f32(max(count, 1u));
