@@ -175,7 +175,9 @@ fn a_planet_is_that_of_its_plan(renderer: &Renderer) -> Result<(), Failed> {
         }
         println!("{body} {date}: {smooth} smooth pixels, {lit} lit, {off} off");
         // The crescent of Venus is steep everywhere.
-        check(lit > 500 || body == Body::Venus, || format!("{body}, {date}: only {lit} pixels are lit"))?;
+        check(lit > 500 || body == Body::Venus, || {
+            format!("{body}, {date}: only {lit} pixels are lit")
+        })?;
         // Encke's gap, thinner than a pixel, falls between the middles of pixels that are alike.
         check(off * 50 <= lit, || format!("{body}, {date}: {off} of {lit} lit pixels are off"))?;
     }
