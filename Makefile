@@ -34,10 +34,14 @@ goldens: driver
 
 # Draws the pictures of the README.
 MOON = --place Flagstaff --look Moon --fov 0.6 --size 480x480
+SATURN = --place Flagstaff --look Saturn --fov 0.02 --size 480x480 --exposure -2.5
+JUPITER = --place Flagstaff --look Jupiter --fov 0.02 --size 480x480 --exposure -2.5
 pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 	cargo run --release --example 6_twilight_sheets docs/twilight
+	$(NOCTURNE) render --at 2017-06-15T07:30:00Z $(SATURN) -o docs/planets/saturn.png
+	$(NOCTURNE) render --at 2026-01-10T06:30:00Z $(JUPITER) -o docs/planets/jupiter.png
 	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1.5 -o docs/moon/quarter.png
 	$(NOCTURNE) render --at 2026-03-03T11:05:00Z $(MOON) -o docs/moon/eclipse.png
 	$(NOCTURNE) render --at 2026-07-17T04:00:00Z $(MOON) --exposure 5 -o docs/moon/earthshine.png

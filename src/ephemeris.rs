@@ -75,7 +75,7 @@ mod tier;
 pub use body::{Body, UnknownBody};
 pub use galilean::{Galilean, JUPITER_EQUATORIAL_RADIUS_KM, JUPITER_POLAR_RADIUS_KM, jupiter_pole};
 pub use observation::{Observation, Seen};
-pub use planets::saturn_pole;
+pub use planets::{north_pole, saturn_pole};
 pub use resampled::Depth;
 pub use tables::{EarthState, Ephemeris};
 pub use tier::{EphemerisError, Tier, Tolerance};

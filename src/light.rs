@@ -5,11 +5,13 @@
 //! of the ephemeris; what the air takes away is folded in by [`star_light`] and by
 //! [`crate::air::extinction`].
 
+pub mod belts;
 pub mod corona;
 pub mod diffuse;
 pub mod disc_light;
 pub mod earth_shadow;
 pub mod earthshine;
+pub mod limb_law;
 pub mod moon;
 pub mod night;
 pub mod planets;

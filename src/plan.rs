@@ -9,6 +9,7 @@ pub mod disc;
 pub mod globe;
 pub mod lay;
 pub mod ledger;
+pub mod planet;
 pub mod skylight;
 
 use thiserror::Error;

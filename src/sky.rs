@@ -9,7 +9,7 @@ use crate::ephemeris::apparent::{ApparentPlace, Observer};
 use crate::ephemeris::moon_orientation::Libration;
 use crate::ephemeris::stars::StarReduction;
 use crate::ephemeris::{
-    Body, Ephemeris, EphemerisError, Galilean, Observation, Seen, Tier, Tolerance, saturn_pole,
+    Body, Ephemeris, EphemerisError, Galilean, Observation, Seen, Tier, Tolerance, north_pole,
 };
 use crate::frame::{Dir, Horizon, Icrs, MoonFixed, Rot};
 use crate::place::Place;
@@ -57,6 +57,8 @@ pub struct BodyState {
     pub angular_radius: Angle,
     /// From the body to the Sun; for the Sun itself, to the observer.
     pub dir_to_sun: Dir<Horizon>,
+    /// North pole in local axes, of the planets that are flattened.
+    pub pole: Option<Dir<Horizon>>,
     /// For Saturn alone.
     pub rings: Option<RingTilt>,
 }
@@ -152,13 +154,11 @@ fn body_state(body: Body, seen: &Seen, observer: &Observer) -> BodyState {
     let to_observer = -apparent.from_observer.dir();
     let to_sun = if body == Body::Sun { to_observer } else { -apparent.from_sun.dir() };
     let distance_km = apparent.topocentric_distance_km;
-    let rings = (body == Body::Saturn).then(|| {
-        let pole = saturn_pole(observer.tdb);
-        RingTilt {
-            observer_latitude: Angle::from_rad(pole.dot(to_observer).clamp(-1.0, 1.0).asin()),
-            sun_latitude: Angle::from_rad(pole.dot(to_sun).clamp(-1.0, 1.0).asin()),
-            pole: observer.horizon_from_icrs * pole,
-        }
+    let pole = north_pole(body, observer.tdb);
+    let rings = pole.filter(|_| body == Body::Saturn).map(|pole| RingTilt {
+        observer_latitude: Angle::from_rad(pole.dot(to_observer).clamp(-1.0, 1.0).asin()),
+        sun_latitude: Angle::from_rad(pole.dot(to_sun).clamp(-1.0, 1.0).asin()),
+        pole: observer.horizon_from_icrs * pole,
     });
     BodyState {
         body,
@@ -170,6 +170,7 @@ fn body_state(body: Body, seen: &Seen, observer: &Observer) -> BodyState {
         phase_angle: to_sun.separation(to_observer),
         angular_radius: Angle::from_rad((body.radius_km() / distance_km).min(1.0).asin()),
         dir_to_sun: observer.horizon_from_icrs * to_sun,
+        pole: pole.map(|pole| observer.horizon_from_icrs * pole),
         rings,
     }
 }

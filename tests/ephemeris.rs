@@ -388,6 +388,29 @@ fn the_sky_is_complete_and_each_body_is_as_good_as_was_asked() {
 }
 
 #[test]
+fn the_rings_of_saturn_are_turned_as_meeus_has_them() {
+    // Meeus 1998, example 45.a, 1992 December 16.0 TD, geocentric: B = 16.442, B' = 14.679, position
+    // angle P = 6.741 degrees (recalled).
+    let tt = JulianDate::from_jd(2_448_972.5);
+    let instant = instant(tt, tt.read_on(-59.0));
+    let place = Place::new(0.0, 0.0, 0.0).unwrap();
+    let sky = SkyState::at(&EPHEMERIS, &instant, &place, Angle::from_arcsec(1.0)).unwrap();
+    let saturn = sky.body(Body::Saturn).unwrap();
+    let rings = saturn.rings.unwrap();
+    assert!((rings.observer_latitude.deg() - 16.442).abs() < 0.01, "{rings:?}");
+    assert!((rings.sun_latitude.deg() - 14.679).abs() < 0.01, "{rings:?}");
+    // North of the axes of 2000 for that of date, 0.04 degrees.
+    let north: Dir<Horizon> = sky.horizon_from_icrs * Dir::from_vector(DVec3::Z);
+    let away = saturn.dir.vector();
+    let across = |dir: Dir<Horizon>| dir.vector() - away * dir.vector().dot(away);
+    let (north, pole) = (across(north), across(rings.pole));
+    // Position angles grow to the east, which is left with north up.
+    let east = north.cross(away);
+    let turn = Angle::from_rad(f64::atan2(pole.dot(east), pole.dot(north)));
+    assert!((turn.deg() - 6.741).abs() < 0.1, "{}", turn.deg());
+}
+
+#[test]
 fn the_cheapest_tier_that_is_good_enough_is_chosen() {
     let (now, then) = (JulianDate::from_jd(2_460_000.5), JulianDate::from_jd(1_500_000.5));
     let chosen = |ephemeris: &Ephemeris, body, arcsec, tdb| {

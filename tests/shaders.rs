@@ -4,7 +4,9 @@
 use std::mem::offset_of;
 
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
-use nocturne::render::uniforms::{CameraUniform, DiscBandUniform, DiscUniform, SkyUniform};
+use nocturne::render::uniforms::{
+    CameraUniform, DiscBandUniform, DiscUniform, PlanetUniform, RingUniform, SkyUniform,
+};
 
 fn parsed(name: &str, source: &str) -> naga::Module {
     let module = naga::front::wgsl::parse_str(source)
@@ -79,4 +81,29 @@ fn uniforms_have_one_layout_on_both_sides() {
         ]
     );
     same_layout!(discs, "Band", DiscBandUniform, [limb, luminance, above_centre]);
+    let planets = parsed("planets", &assembled("planets"));
+    same_layout!(
+        planets,
+        "Ring",
+        RingUniform,
+        [inner, outer, brightness, to_observer, from_sun, padding]
+    );
+    same_layout!(
+        planets,
+        "Planet",
+        PlanetUniform,
+        [
+            pole,
+            albedo,
+            exponent,
+            limb_cosine,
+            reach,
+            ring_count,
+            is_lommel_seeliger,
+            belt_count,
+            belt_edge,
+            belts,
+            rings
+        ]
+    );
 }

@@ -93,6 +93,19 @@ impl Body {
             Body::Pluto => 1_188.3,
         }
     }
+
+    /// Mean radius at the poles over that at the equator: 1 for balls. Same source.
+    pub const fn polar_ratio(self) -> f64 {
+        let polar_km = match self {
+            Body::Mars => 3_376.20,
+            Body::Jupiter => 66_854.0,
+            Body::Saturn => 54_364.0,
+            Body::Uranus => 24_973.0,
+            Body::Neptune => 24_341.0,
+            _ => return 1.0,
+        };
+        polar_km / self.radius_km()
+    }
 }
 
 impl fmt::Display for Body {

@@ -10,6 +10,8 @@ mod terms;
 use glam::DVec3;
 use terms::{ARGUMENT_RATE, Elements};
 
+use crate::ephemeris::body::Body;
+use crate::ephemeris::galilean::jupiter_pole;
 use crate::ephemeris::polynomial::polynomial;
 use crate::frame::{Dir, Icrs, Pos, turn_axes_x};
 use crate::time::{JulianDate, Tdb};
@@ -153,6 +155,27 @@ pub fn pluto(tdb: JulianDate<Tdb>) -> Pos<Icrs> {
         inclination: Angle::from_deg(17.141_042_60 + 0.000_005_01 * t),
     }
     .position()
+}
+
+/// North pole of a planet that is flattened; none of the others.
+///
+/// Archinal et al. 2018 as for [`saturn_pole`]; Mars as in their report of 2009 (*Celest. Mech. Dyn.
+/// Astron.* 109, 101), which has no long terms. Mars, Uranus and Neptune are recalled, not compared
+/// with the publication.
+pub fn north_pole(body: Body, tdb: JulianDate<Tdb>) -> Option<Dir<Icrs>> {
+    let t = tdb.centuries_since_j2000();
+    let [ascension_deg, declination_deg] = match body {
+        Body::Jupiter => return Some(jupiter_pole(tdb)),
+        Body::Saturn => return Some(saturn_pole(tdb)),
+        Body::Mars => [317.681_43 - 0.1061 * t, 52.886_50 - 0.0609 * t],
+        Body::Uranus => [257.311, -15.175],
+        Body::Neptune => {
+            let (sin, cos) = Angle::from_deg(357.85 + 52.316 * t).sin_cos();
+            [299.36 + 0.70 * sin, 43.46 - 0.51 * cos]
+        }
+        _ => return None,
+    };
+    Some(Dir::from_spherical(Angle::from_deg(ascension_deg), Angle::from_deg(declination_deg)))
 }
 
 /// North pole of Saturn and of its rings.

@@ -61,6 +61,9 @@ pub const RINGS: [Ring; 6] = [
     ring("A, outside Encke's gap", [133_745.0, 136_780.0], 0.55, 0.425),
 ];
 
+/// How far they reach, in radii of the equator.
+pub const REACH: f64 = RINGS[RINGS.len() - 1].outer_km / SATURN_EQUATORIAL_RADIUS_KM;
+
 /// How the rings are lit and seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RingView {

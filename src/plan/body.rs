@@ -13,6 +13,7 @@ use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::light::moon::{Reflectance, bands};
 use crate::light::night::{LitObject, Night};
+use crate::light::saturn_rings;
 use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
@@ -21,6 +22,7 @@ use crate::units::{Angle, SUN_RADIUS_KM, Xyzv};
 use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
 use super::globe::umbra::UmbraTable;
 use super::globe::{CHANNELS, GlobeView, KeptGlobe, SeenGlobe};
+use super::planet::PlanetDisc;
 
 /// A disc smaller than this is a point.
 const POINT_PX: f64 = 0.5;
@@ -33,6 +35,9 @@ const COARSE_PX: f64 = 48.0;
 /// Samples in a pixel, inside a large disc and at edges.
 const INSIDE: Lattice = Lattice { points: 5, turn: 3 };
 const EDGE: Lattice = Lattice { points: 34, turn: 21 };
+/// Inside rings, where the edges of shadows are not looked for; and at the edges of a planet in bands of
+/// colour, which stand apart and share the samples out.
+const BETWEEN: Lattice = Lattice { points: 13, turn: 8 };
 /// Samples are those of an edge within this many pixels of it: the scale of a picture may differ by
 /// half along and across.
 const EDGE_PX: f64 = 2.5;
@@ -137,7 +142,12 @@ impl<'a> SeenBody<'a> {
 
     /// Whether all of it has set.
     pub fn is_below_horizon(&self) -> bool {
-        self.limb(1.0) < self.night.horizon
+        self.limb(self.reach()) < self.night.horizon
+    }
+
+    /// How far the body reaches from its middle, radii.
+    fn reach(&self) -> f64 {
+        if self.state.rings.is_some() { saturn_rings::REACH } else { 1.0 }
     }
 
     /// Apparent altitude of the lower (-1) or upper (+1) limb, or of a height in radii between.
@@ -151,7 +161,7 @@ impl<'a> SeenBody<'a> {
     fn dispersion(&self) -> Angle {
         let [red, blue] = DISPERSION_NM.map(|nm| self.rays(nm));
         let (Some(red), Some(blue)) = (red, blue) else { return Angle::ZERO };
-        let lowest = self.limb(-1.0).max(self.night.horizon);
+        let lowest = self.limb(-self.reach()).max(self.night.horizon);
         blue.at_apparent_altitude(lowest) - red.at_apparent_altitude(lowest)
     }
 
@@ -171,8 +181,8 @@ impl<'a> SeenBody<'a> {
         let is_coloured = apart_px > unseen_px && !self.is_small();
         // Blue is lifted, red is lowered, by about half of what parts them.
         let spread = if is_coloured { dispersion } else { Angle::ZERO };
-        let lowest = (self.limb(-1.0 - BEYOND_LIMB) - spread).max(self.night.horizon);
-        let highest = self.limb(1.0 + BEYOND_LIMB) + spread;
+        let lowest = (self.limb(-self.reach() - BEYOND_LIMB) - spread).max(self.night.horizon);
+        let highest = self.limb(self.reach() + BEYOND_LIMB) + spread;
         if highest <= lowest {
             return None;
         }
@@ -309,7 +319,7 @@ impl<'a> SeenBody<'a> {
         let centre = self.state.dir.vector();
         let side = centre.any_orthonormal_vector();
         let across = centre.cross(side);
-        let (sin_radius, cos_radius) = self.state.angular_radius.sin_cos();
+        let (sin_radius, cos_radius) = (self.state.angular_radius * self.reach()).sin_cos();
         let (mut first, mut last) = ([f64::MAX; 2], [f64::MIN; 2]);
         for step in 0..LIMB_POINTS {
             let turn = std::f64::consts::TAU * step as f64 / LIMB_POINTS as f64;
@@ -349,7 +359,7 @@ impl<'a> SeenBody<'a> {
                 Some(surface) => SurfaceLaw::Moon { map: albedo_map(&surface.albedo) },
                 None => SurfaceLaw::Lambert,
             },
-            _ => SurfaceLaw::Lambert,
+            _ => SurfaceLaw::Planet(PlanetDisc::of(self.state)),
         };
         let body_from_horizon = match self.state.body {
             Body::Moon => self.night.sky.moon.horizon_from_moon_fixed.inverse().matrix(),
@@ -402,6 +412,10 @@ impl<'a> SeenBody<'a> {
         let moon = &self.night.sky.moon.state;
         let lowest = Dir::from_azimuth_altitude(self.state.dir.azimuth(), air.lowest);
         let radius_px = 0.5 * self.across_px();
+        let edge = match shape.law {
+            SurfaceLaw::Planet(_) => planet_edge(radius_px, air.bands() > 1),
+            _ => EDGE,
+        };
         let apart_px = match air.bands() {
             1 => 0.0,
             _ => self.dispersion().rad() * self.px_per_rad,
@@ -419,12 +433,30 @@ impl<'a> SeenBody<'a> {
                 .flat_map(|band| (0..channels).map(move |channel| (band, channel)))
                 .map(band)
                 .collect(),
-            samples: [if radius_px < 0.5 * COARSE_PX { EDGE } else { INSIDE }, EDGE],
+            samples: [
+                match shape.reach() {
+                    _ if radius_px < 0.5 * COARSE_PX => edge,
+                    reach if reach > 1.0 => BETWEEN,
+                    _ => INSIDE,
+                },
+                edge,
+            ],
             edge: (EDGE_PX + apart_px) / radius_px,
             globe,
             occluder: (self.state.body != Body::Moon).then_some((moon.dir, moon.angular_radius)),
             shape,
         }
+    }
+}
+
+/// Samples at the edges of a planet: as many in a pixel as a crescent asks for that is thinner than it.
+fn planet_edge(radius_px: f64, is_coloured: bool) -> Lattice {
+    match (radius_px, is_coloured) {
+        (tiny, false) if tiny < SMALL_PX => Lattice { points: 610, turn: 377 },
+        (small, false) if small < 0.5 * COARSE_PX => Lattice { points: 233, turn: 144 },
+        (small, true) if small < 0.5 * COARSE_PX => Lattice { points: 89, turn: 55 },
+        (_, true) => BETWEEN,
+        (_, false) => EDGE,
     }
 }
 

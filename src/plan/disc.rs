@@ -10,12 +10,14 @@
 //! colour, each with its own refraction and its own limb darkening; the bands share the spectrum out
 //! so that their sum is the light of a single one. Where it does not show there is one band.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::frame::{Apparent, Dir, Horizon, View};
+use crate::light::disc_light::disc_axes;
 use crate::units::{Angle, Xyzv};
 
 use super::globe::{CHANNELS, SeenGlobe};
+use super::planet::PlanetDisc;
 
 /// Number of altitudes across a disc at which the air is looked through.
 pub const NODES: usize = 33;
@@ -29,6 +31,8 @@ pub enum SurfaceLaw {
     Moon { map: AlbedoMap },
     /// Lambert's law.
     Lambert,
+    /// A flattened globe with its own law, and rings.
+    Planet(PlanetDisc),
 }
 
 /// Relative albedo in the body's own axes.
@@ -144,9 +148,21 @@ pub struct DiscSample {
 }
 
 impl DiscShape {
-    /// The shape of the light at an outward normal in local axes: the twin of `shape` in
-    /// `shaders/discs.wgsl`.
+    /// How far the body reaches from its middle, radii: more than 1 with rings.
+    pub fn reach(&self) -> f64 {
+        match &self.law {
+            SurfaceLaw::Planet(planet) => planet.reach(),
+            _ => 1.0,
+        }
+    }
+
+    /// The shape of the light at an outward normal of a ball in local axes: the twin of `shape` in
+    /// `shaders/discs.wgsl`. Of a planet, what is seen at the same point of the disc.
     pub fn shape(&self, normal: DVec3, cos_emission: f64) -> f64 {
+        if let SurfaceLaw::Planet(planet) = &self.law {
+            let [level, up, _] = disc_axes(self.centre);
+            return planet.shape(DVec2::new(normal.dot(level), normal.dot(up)));
+        }
         if let SurfaceLaw::Sun { limb_darkening } = &self.law {
             return limb_darkening.iter().rev().fold(0.0, |sum, a| sum * cos_emission + a);
         }
@@ -163,22 +179,23 @@ impl DiscShape {
         }
     }
 
-    /// Points spread evenly in solid angle over the disc, `rings` rings of them, with the shape
-    /// of the light at each.
+    /// Points spread evenly in solid angle over as much as the body reaches, `rings` rings of them,
+    /// with the shape of the light at each.
     fn points(&self, rings: usize) -> Vec<(Dir<Horizon>, f64)> {
         let centre = self.centre.vector();
         let side = centre.any_orthonormal_vector();
         let across = centre.cross(side);
         let sin_radius = self.angular_radius.sin();
+        let reach = self.reach();
         let mut points = Vec::with_capacity(3 * rings * rings);
         for ring in 0..rings {
             // Ring `ring` holds 6 ring + 3 points, so that each stands for the same area.
-            let radius = (ring as f64 + 0.5) / rings as f64;
+            let radius = (ring as f64 + 0.5) / rings as f64 * reach;
             let count = 6 * ring + 3;
             for step in 0..count {
                 let turn = (step as f64 + 0.5) / count as f64 * std::f64::consts::TAU;
                 let off_centre = (side * turn.cos() + across * turn.sin()) * radius;
-                let cos_emission = (1.0 - radius * radius).sqrt();
+                let cos_emission = (1.0 - radius * radius).max(0.0).sqrt();
                 let normal = off_centre - centre * cos_emission;
                 let dir = Dir::from_vector(centre + off_centre * sin_radius);
                 points.push((dir, self.shape(normal, cos_emission)));
@@ -187,10 +204,13 @@ impl DiscShape {
         points
     }
 
-    /// Mean of the shape over the disc. Zero when nothing of it is lit.
+    /// Sum of the shape over all that it reaches, as a mean over the disc of its equator. Zero when
+    /// nothing of it is lit.
     pub fn mean(&self) -> f64 {
-        let points = self.points(64);
-        points.iter().map(|(_, shape)| shape).sum::<f64>() / points.len() as f64
+        // Rings have many edges, a crescent has few points.
+        let points = self.points(if matches!(self.law, SurfaceLaw::Planet(_)) { 160 } else { 64 });
+        let mean = points.iter().map(|(_, shape)| shape).sum::<f64>() / points.len() as f64;
+        mean * self.reach() * self.reach()
     }
 
     /// The disc as points of light.
@@ -204,7 +224,7 @@ impl DiscShape {
             .collect()
     }
 
-    /// Solid angle of the whole disc, steradians.
+    /// Solid angle of the whole disc without rings, as a ball, steradians.
     pub fn solid_angle_sr(&self) -> f64 {
         // 2 pi (1 - cos r), written so that it keeps its digits for a small disc.
         4.0 * std::f64::consts::PI * (self.angular_radius.rad() / 2.0).sin().powi(2)

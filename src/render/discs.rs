@@ -1,5 +1,7 @@
 //! Bodies that show a disc: a lit sphere seen through the air.
 
+use std::sync::OnceLock;
+
 use crate::plan::disc::{Disc, SurfaceLaw};
 use crate::plan::globe::SeenGlobe;
 
@@ -7,12 +9,14 @@ use super::globe::{GlobePass, lattice_indices};
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
-use super::uniforms::{DiscBandUniform, DiscUniform, GlobeTiles};
+use super::uniforms::{DiscBandUniform, DiscUniform, GlobeTiles, PlanetUniform};
 
 pub struct DiscPass {
     shapes: wgpu::RenderPipeline,
     /// Where a pixel of the frame has about one of the picture, and where it has more.
     globes: [wgpu::RenderPipeline; 2],
+    /// Made when the first planet shows a disc.
+    planets: OnceLock<wgpu::RenderPipeline>,
     globe: GlobePass,
     across_picture: wgpu::Sampler,
 }
@@ -27,6 +31,7 @@ impl DiscPass {
             shapes: pipeline(["vertex", "fragment"], strip),
             globes: ["globe_fragment", "small_globe_fragment"]
                 .map(|fragment| pipeline(["globe_vertex", fragment], list)),
+            planets: OnceLock::new(),
             globe: GlobePass::new(gpu),
             across_picture: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
         }
@@ -41,6 +46,9 @@ impl DiscPass {
         let bands = gpu.buffer("bands", bytemuck::cast_slice(&bands), wgpu::BufferUsages::STORAGE);
         match &disc.globe {
             Some(globe) => self.draw_globe(frame, disc, globe, [&uniform, &bands]),
+            None if matches!(disc.shape.law, SurfaceLaw::Planet(_)) => {
+                self.draw_planet(frame, disc, [&uniform, &bands]);
+            }
             None => self.draw_shape(frame, disc, [&uniform, &bands]),
         }
     }
@@ -56,6 +64,27 @@ impl DiscPass {
         let group = frame.bind(&self.shapes, &[uniform, &albedo, bands]);
         frame.pass(disc.label, |pass| {
             pass.set_pipeline(&self.shapes);
+            pass.set_bind_group(0, &group, &[]);
+            pass.draw(0..4, 0..1);
+        });
+    }
+
+    fn draw_planet(&self, frame: &mut Target, disc: &Disc, [uniform, bands]: [&wgpu::Buffer; 2]) {
+        let SurfaceLaw::Planet(planet) = &disc.shape.law else { return };
+        let gpu = frame.gpu;
+        let pipeline = self.planets.get_or_init(|| {
+            let strip = wgpu::PrimitiveTopology::TriangleStrip;
+            let source = shaders::assembled("planets");
+            gpu.pipeline("planets", &source, ["vertex", "planet_fragment"], strip, &[])
+        });
+        let planet = PlanetUniform::of(planet);
+        let planet = gpu.buffer("planet", bytemuck::bytes_of(&planet), wgpu::BufferUsages::STORAGE);
+        let group = gpu.bind(
+            &pipeline.get_bind_group_layout(0),
+            &[(0, &frame.camera), (1, uniform), (3, bands), (7, &planet)],
+        );
+        frame.pass(disc.label, |pass| {
+            pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.draw(0..4, 0..1);
         });

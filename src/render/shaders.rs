@@ -4,15 +4,17 @@ const QUANTITIES: &str = include_str!("../../shaders/lib/quantities.wgsl");
 const CAMERA: &str = include_str!("../../shaders/lib/camera.wgsl");
 const SKYLIGHT: &str = include_str!("../../shaders/skylight.wgsl");
 const GLOBE: &str = include_str!("../../shaders/lib/globe.wgsl");
+const DISCS: &str = include_str!("../../shaders/discs.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 6] = [
+pub const SHADERS: [(&str, &[&str]); 7] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("globe", &[QUANTITIES, GLOBE, include_str!("../../shaders/globe.wgsl")]),
     ("globe-mean", &[QUANTITIES, GLOBE, include_str!("../../shaders/globe_mean.wgsl")]),
-    ("discs", &[QUANTITIES, CAMERA, GLOBE, include_str!("../../shaders/discs.wgsl")]),
+    ("discs", &[QUANTITIES, CAMERA, GLOBE, DISCS]),
+    ("planets", &[QUANTITIES, CAMERA, GLOBE, DISCS, include_str!("../../shaders/planet.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
 ];
 

@@ -11,10 +11,14 @@ use glam::DMat3;
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
 use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::belts;
 use crate::light::disc_light::disc_axes;
+use crate::light::limb_law::{LIMB_COSINE, LimbLaw};
+use crate::light::saturn_rings::RINGS;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
+use crate::plan::planet::PlanetDisc;
 use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
 use crate::units::Angle;
 
@@ -69,6 +73,35 @@ pub struct DiscBandUniform {
     pub limb: [[f32; 4]; 2],
     pub luminance: [[f32; 4]; NODES],
     pub above_centre: [[f32; 4]; NODES],
+}
+
+/// `Ring` of `shaders/planet.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct RingUniform {
+    pub inner: f32,
+    pub outer: f32,
+    pub brightness: f32,
+    pub to_observer: f32,
+    pub from_sun: f32,
+    pub padding: [f32; 3],
+}
+
+/// `Planet` of `shaders/planet.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PlanetUniform {
+    pub pole: [f32; 4],
+    pub albedo: f32,
+    pub exponent: f32,
+    pub limb_cosine: f32,
+    pub reach: f32,
+    pub ring_count: u32,
+    pub is_lommel_seeliger: u32,
+    pub belt_count: u32,
+    pub belt_edge: f32,
+    pub belts: [[f32; 4]; belts::JUPITER.len()],
+    pub rings: [RingUniform; RINGS.len()],
 }
 
 /// `Globe` of `shaders/globe.wgsl`.
@@ -232,6 +265,8 @@ impl DiscUniform {
             SurfaceLaw::Sun { .. } => (0.0, 0),
             SurfaceLaw::Moon { map } => (1.0, map.width),
             SurfaceLaw::Lambert => (2.0, 0),
+            // In `shaders/planet.wgsl`.
+            SurfaceLaw::Planet(_) => (3.0, 0),
         };
         let horizon_from_disc = DMat3::from_cols_array_2d(&disc_axes(shape.centre).map(Into::into));
         let in_disc = |dir: Dir<Horizon>| horizon_from_disc.transpose() * dir.vector();
@@ -271,6 +306,44 @@ impl DiscUniform {
             bands: (disc.bands.len() / disc.channels()) as u32,
             map_width: map_width as u32,
             north: [sin_north as f32, cos_north as f32, 0.0, 0.0],
+        }
+    }
+}
+
+impl PlanetUniform {
+    pub fn of(planet: &PlanetDisc) -> Self {
+        let (exponent, is_lommel_seeliger) = match planet.law {
+            LimbLaw::LommelSeeliger => (1.0, 1),
+            LimbLaw::Minnaert { exponent } => (exponent, 0),
+        };
+        let mut rings = [RingUniform::default(); RINGS.len()];
+        for (uniform, ring) in rings.iter_mut().zip(&planet.rings) {
+            *uniform = RingUniform {
+                inner: ring.inner as f32,
+                outer: ring.outer as f32,
+                brightness: ring.brightness as f32,
+                to_observer: ring.to_observer as f32,
+                from_sun: ring.from_sun as f32,
+                padding: [0.0; 3],
+            };
+        }
+        let mut belts = [[0.0; 4]; belts::JUPITER.len()];
+        for (uniform, belt) in belts.iter_mut().zip(planet.belts) {
+            let [south, north] = belt.sines().map(|sine| sine as f32);
+            *uniform = [south, north, belt.depth as f32, 0.0];
+        }
+        PlanetUniform {
+            pole: with(planet.pole, planet.polar_ratio),
+            albedo: planet.albedo as f32,
+            exponent: exponent as f32,
+            limb_cosine: LIMB_COSINE as f32,
+            reach: planet.reach() as f32,
+            ring_count: planet.rings.len() as u32,
+            is_lommel_seeliger,
+            belt_count: planet.belts.len() as u32,
+            belt_edge: belts::EDGE as f32,
+            belts,
+            rings,
         }
     }
 }
