@@ -11,6 +11,7 @@ pub mod disc_light;
 pub mod earth_shadow;
 pub mod earthshine;
 pub mod moon;
+pub mod moon_shadow;
 pub mod night;
 pub mod planets;
 pub mod point_light;

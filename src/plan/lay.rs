@@ -144,7 +144,7 @@ fn lay_sky(
     }
     if !layers.ground {
         below.fill(Xyzv::BLACK);
-        for source in [&mut sky.sun, &mut sky.moon].into_iter().flatten() {
+        for source in [&mut sky.sun, &mut sky.sun_left, &mut sky.moon].into_iter().flatten() {
             source.view.blacken_ground();
         }
     }

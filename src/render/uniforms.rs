@@ -13,7 +13,7 @@ use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::{EXTENT, Globe, Ground, MeshBand, Shadows};
-use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
+use crate::plan::{SKY_SHAPE, Side, SkyPlan, SourceSky};
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
 #[repr(C)]
@@ -128,16 +128,23 @@ impl CameraUniform {
 impl SkyUniform {
     /// Given the height of a pixel, radians.
     pub fn of(sky: &SkyPlan, pixel_rad: f64) -> Self {
-        let sources = [&sky.sun, &sky.moon];
+        let sources = sky.sources();
         let dir = |source: &SourceSky| -> [f32; 4] {
             let to_source: Dir<Apparent> =
                 Dir::from_azimuth_altitude(source.azimuth, source.view.source_elevation);
             direction(to_source, source.azimuth.rad())
         };
-        let shines = |source: &SourceSky| if source.view.haze.is_empty() { 1 } else { 2 };
+        let shines = |source: &SourceSky, side: Side| {
+            let of_side = match side {
+                Side::Both => 0,
+                Side::Clockwise => 4,
+                Side::Other => 8,
+            };
+            of_side + if source.view.haze.is_empty() { 1 } else { 2 }
+        };
         SkyUniform {
-            sources: sources.map(|s| s.as_ref().map_or([0.0; 4], dir)),
-            shines: sources.map(|s| s.as_ref().map_or(0, shines)),
+            sources: sources.map(|s| s.map_or([0.0; 4], |(s, _)| dir(s))),
+            shines: sources.map(|s| s.map_or(0, |(s, side)| shines(s, side))),
             azimuths: SKY_SHAPE.azimuths as u32,
             above: SKY_SHAPE.above as u32,
             below: SKY_SHAPE.below as u32,
