@@ -5,6 +5,7 @@
 
 pub mod body;
 pub mod classic;
+pub mod corona;
 pub mod disc;
 pub mod globe;
 pub mod lay;
@@ -118,7 +119,13 @@ fn xyzv(channels: &[f64]) -> Xyzv {
 impl SkyPlan {
     /// No light at all.
     pub fn black(horizon: Angle) -> SkyPlan {
-        SkyPlan { horizon, sun: None, sun_left: None, moon: None, dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()] }
+        SkyPlan {
+            horizon,
+            sun: None,
+            sun_left: None,
+            moon: None,
+            dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()],
+        }
     }
 
     /// The sources and the sides of them that they light. A Moon that shadows the air sends no light.

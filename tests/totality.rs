@@ -71,7 +71,9 @@ fn totality_against_random_paths() {
     let height_m = night.sky.place.height_m;
     let solved = SolvedAir::solve(&night.air, height_m).expect("solved");
     let whole = night.irradiance_without_eclipse(&night.sky.sun);
+    let start = std::time::Instant::now();
     let [clockwise, other] = solved.eclipsed_sky(&night, &covered, &whole).expect("eight nodes");
+    println!("TIME {:?}", start.elapsed());
     let _ = (&clockwise, &other);
 
     let shadow = MoonShadow::of(&night.sky, SKY_NODES_NM);
@@ -90,9 +92,15 @@ fn totality_against_random_paths() {
     let sides = [shading.of(&view, 0), shading.of(&view, 1)];
     let effort = Effort { relative_error: 0.05, most_paths: 400_000, seed: 3 };
     let mut worst = 0.0f64;
-    for (azimuth_deg, altitude_deg) in
-        [(0.0, 90.0), (0.0, 45.0), (180.0, 30.0), (90.0, 15.0), (0.0, 6.0), (-90.0, 2.0), (180.0, 2.0)]
-    {
+    for (azimuth_deg, altitude_deg) in [
+        (0.0, 90.0),
+        (0.0, 45.0),
+        (180.0, 30.0),
+        (90.0, 15.0),
+        (0.0, 6.0),
+        (-90.0, 2.0),
+        (180.0, 2.0),
+    ] {
         let [azimuth, altitude] = [azimuth_deg, altitude_deg].map(Angle::from_deg);
         let truth =
             paths.radiance_in_shade(eye_km, cos_zenith, (altitude, azimuth), &left_at, &effort);
@@ -143,4 +151,26 @@ fn totality_is_as_dark_as_measured() {
         );
     }
     let _ = Body::Sun;
+}
+
+#[test]
+fn the_sky_of_the_eclipsed_moon_is_that_of_a_moonless_night() {
+    let flagstaff = (35.2, -111.65, 2106.0);
+    let zenith = |utc: &str, with_moon: bool| {
+        let night = night(utc, flagstaff);
+        assert!(night.sky.sun.dir.altitude().deg() < -18.0);
+        assert!(night.sky.moon.state.dir.altitude().deg() > 15.0);
+        let mut kept = KeptAir::new(Store::NONE);
+        let plan = sky_plan(&night, false, with_moon, &mut kept).expect("solved").0;
+        [(0.0, 90.0), (0.0, 40.0), (180.0, 40.0)].map(|(az, alt)| luminance(&plan, az, alt))
+    };
+    let [before, dark] = ["2026-03-03T07:44:00Z", "2026-03-03T11:33:40Z"];
+    for ((full, eclipsed), moonless) in
+        zenith(before, true).into_iter().zip(zenith(dark, true)).zip(zenith(dark, false))
+    {
+        println!("cd/m2: full {full:.2e}, eclipsed {eclipsed:.3e}, moonless {moonless:.3e}");
+        assert!(eclipsed > moonless && eclipsed < 1.03 * moonless);
+        // By some 3 magnitudes per square second of arc.
+        assert!(full > 8.0 * moonless);
+    }
 }

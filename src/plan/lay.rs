@@ -13,6 +13,7 @@ use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
 use super::classic::ClassicLight;
+use super::corona::{self, Corona};
 use super::ledger::Ledger;
 use super::skylight::{self, KeptAir, Origin, Shines};
 use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
@@ -67,6 +68,21 @@ pub fn lay_in(
     let mut moon = Some(moon);
 
     for object in &night.objects {
+        if object.kind == Kind::Body(Body::Sun) && layers.sun {
+            match corona::seen(object, night, &camera) {
+                Ok(Corona::Disc(disc)) => {
+                    ledger.draw("corona");
+                    plan.discs.push(disc);
+                }
+                Ok(Corona::Point(light)) => {
+                    match lay_point(&camera, object.apparent, light, &mut plan.splats) {
+                        true => ledger.draw("corona"),
+                        false => ledger.skip("corona", OUT_OF_VIEW),
+                    }
+                }
+                Err(reason) => ledger.skip("corona", reason),
+            }
+        }
         let (layer, wanted) = layer_of(object, layers);
         let visible = visible(object, layers, wanted, night, &plan);
         if let Err(reason) = visible {

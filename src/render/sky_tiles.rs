@@ -119,7 +119,8 @@ struct Cutter<'a> {
 
 impl Cutter<'_> {
     fn new<'a>(sky: &'a SkyPlan, camera: &'a Camera) -> Cutter<'a> {
-        let sources = sky.sources()
+        let sources = sky
+            .sources()
             .into_iter()
             .flatten()
             .map(|(s, _)| Dir::from_azimuth_altitude(s.azimuth, s.view.source_elevation))

@@ -220,6 +220,7 @@ impl DiscUniform {
             SurfaceLaw::Sun { .. } => (0.0, 0),
             SurfaceLaw::Moon { map } => (1.0, map.width),
             SurfaceLaw::Lambert => (2.0, 0),
+            SurfaceLaw::Corona => (3.0, 0),
         };
         let horizon_from_disc = DMat3::from_cols_array_2d(&disc_axes(shape.centre).map(Into::into));
         let in_disc = |dir: Dir<Horizon>| horizon_from_disc.transpose() * dir.vector();

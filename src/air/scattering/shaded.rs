@@ -6,14 +6,16 @@
 //! source at each place, weighed by what the place sends to the eye: scattering, transmittance to the
 //! eye and to the source. That is exact but for straight rays. For light scattered more often it is the mean of
 //! `J(shaded) / J(whole)`, the light that comes to a place from all sides. `J` solves `J = K (E + J)`: `K`
-//! gathers over all directions what air and ground scatter, as if evenly, and `E` is the beam. Two
-//! steps of it are made, on nodes around the observer; the ratio changes little after.
+//! gathers over all directions what air and ground scatter, as if evenly, and `E` is the beam. Three
+//! orders of it are gathered on nodes around the observer, the rest goes on as they do.
 //! What part of the light was scattered once is known from the tables less the same quadrature.
 //!
-//! *Omitted.* Refraction along the way, the shape of phase functions in `K`, orders above the third in the
-//! ratio.
+//! *Omitted.* Refraction along the way, the shape of phase functions in `K`.
 //!
-//! *Accuracy.* See `tests/totality.rs`, against random paths.
+//! *Accuracy.* In the middle of a total eclipse, the Sun 70 degrees high, within a factor of 1.5 of random
+//! paths in seven directions at 450, 545 and 635 nm, where the light is 4e-5 to 1.4e-3 of daylight
+//! (`tests/totality.rs`): brighter overhead, fainter by a tenth to a fifth near the horizon. Outside of eclipses none of
+//! it is reckoned.
 
 use std::f64::consts::PI;
 
@@ -38,18 +40,18 @@ const TOP_KM: f64 = 60.0;
 const NODE_KM: f64 = 0.25;
 /// A ray is cut where `q^k - 1` kilometres are: `q` for the lines of sight, and for those of `K`.
 const SIGHT_GROWTH: f64 = 1.10;
-const FIELD_GROWTH: f64 = 1.25;
+const FIELD_GROWTH: f64 = 1.35;
 /// The longest ray, kilometres.
 const LONGEST_KM: f64 = 900.0;
 /// Nodes of `J`: distance, height, both kilometres, and azimuths.
-const DISTANCES_KM: [f64; 9] = [0.0, 15.0, 30.0, 50.0, 80.0, 120.0, 180.0, 270.0, 420.0];
-const HEIGHTS_KM: [f64; 7] = [0.0, 1.5, 4.0, 8.0, 14.0, 22.0, 36.0];
+const DISTANCES_KM: [f64; 7] = [0.0, 25.0, 50.0, 85.0, 140.0, 230.0, 400.0];
+const HEIGHTS_KM: [f64; 5] = [0.0, 3.0, 8.0, 16.0, 32.0];
 const AZIMUTHS: usize = 8;
 /// Directions of `K`: elevations on each side of the horizon, and azimuths.
-const ELEVATIONS: usize = 6;
-const TURNS: usize = 12;
+const ELEVATIONS: usize = 5;
+const TURNS: usize = 8;
 /// Steps of the solution for `J`.
-const STEPS: usize = 2;
+const STEPS: usize = 3;
 
 /// The factors of a sky: for the smooth part and for haze, clockwise from the source, then the other way.
 pub struct Shading {
@@ -115,12 +117,19 @@ impl ScatteringTables {
     /// How a sky changes when something stands before its source. The view is that of the whole source, in
     /// the wavelengths of these tables, seen from a height above sea level, kilometres; none if the tables
     /// hold more wavelengths than [`LANES`].
-    pub fn shading(&self, whole: &SkyView, height_km: f64, cos_source_zenith: f64, left: &LeftAt) -> Option<Shading> {
+    pub fn shading(
+        &self,
+        whole: &SkyView,
+        height_km: f64,
+        cos_source_zenith: f64,
+        left: &LeftAt,
+    ) -> Option<Shading> {
         let [band] = &self.bands[..] else { return None };
         let optics = &band.optics;
         let node = |node: usize| {
             let density = self.geometry.profile.density(node as f64 * NODE_KM);
-            let of = |species: usize, lane: usize| density[species] * optics.extinction[species][lane];
+            let of =
+                |species: usize, lane: usize| density[species] * optics.extinction[species][lane];
             Matter {
                 extinction: std::array::from_fn(|i| (0..SPECIES).map(|k| of(k, i)).sum()),
                 molecules: std::array::from_fn(|i| of(0, i)),
@@ -137,10 +146,7 @@ impl ScatteringTables {
             source: DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos),
             left,
         };
-        let mut field = vec![[[0.0; LANES]; 2]; Air::nodes()];
-        for _ in 0..STEPS {
-            field = air.gathered(&field);
-        }
+        let field = air.solved();
         let eye_km = height_km.max(self.ground_km() + 0.002);
         let side = |sign: f64| -> Vec<[Shares; 2]> {
             (0..whole.shape.nodes())
@@ -187,7 +193,13 @@ impl Air<'_> {
 
     /// Follows a ray from a place, from the Earth's centre, and tells the transmittance to the ground it ends on, and
     /// where that is.
-    fn follow(&self, from: DVec3, dir: DVec3, growth: f64, mut see: impl FnMut(&Step)) -> Option<(DVec3, Shares)> {
+    fn follow(
+        &self,
+        from: DVec3,
+        dir: DVec3,
+        growth: f64,
+        mut see: impl FnMut(&Step),
+    ) -> Option<(DVec3, Shares)> {
         let ground = EARTH_RADIUS_KM + self.tables.ground_km();
         let (b, c) = (from.dot(dir), from.length_squared() - ground * ground);
         let hit = b * b - c.max(0.0);
@@ -231,7 +243,8 @@ impl Air<'_> {
         let turn = (off.y.atan2(off.x) / (2.0 * PI)).rem_euclid(1.0) * AZIMUTHS as f64;
         let (a, round) = (turn as usize % AZIMUTHS, turn.fract());
         std::array::from_fn(|corner| {
-            let pick = |bit: usize, share: f64| if corner >> bit & 1 == 1 { share } else { 1.0 - share };
+            let pick =
+                |bit: usize, share: f64| if corner >> bit & 1 == 1 { share } else { 1.0 - share };
             let step = |bit: usize| corner >> bit & 1;
             let azimuth = (a + step(2)) % AZIMUTHS;
             let node = ((d + step(0)) * HEIGHTS_KM.len() + h + step(1)) * AZIMUTHS + azimuth;
@@ -267,6 +280,26 @@ impl Air<'_> {
             std::array::from_fn(|i| beam[i] * facing + whole[i] * even),
             std::array::from_fn(|i| beam[i] * left[i] * facing + shaded[i] * even),
         ]
+    }
+
+    /// The field of all orders: those of the steps, and the rest as if each had the same part of the one
+    /// before.
+    fn solved(&self) -> Field {
+        let mut fields = vec![vec![[[0.0; LANES]; 2]; Air::nodes()]];
+        for step in 0..STEPS {
+            fields.push(self.gathered(&fields[step]));
+        }
+        let [a, b, c] = [STEPS - 2, STEPS - 1, STEPS].map(|step| &fields[step]);
+        let all = |node: usize| {
+            [0, 1].map(|k| {
+                std::array::from_fn(|i| {
+                    let [a, b, c] = [a, b, c].map(|field| field[node][k][i]);
+                    let part = if b > a { ((c - b) / (b - a)).clamp(0.0, 0.8) } else { 0.0 };
+                    c + (c - b) * part / (1.0 - part)
+                })
+            })
+        };
+        (0..Air::nodes()).map(all).collect()
     }
 
     /// One step of the solution: the light from all sides at each node, as the actinic flux.
@@ -307,7 +340,10 @@ impl Air<'_> {
                     if let Some((ground, through)) = end {
                         let facing = (ground.dot(self.source) / ground.length()).max(0.0);
                         let by = through.map(|t| t * self.ground_albedo / PI);
-                        add(self.arriving(ground, self.tables.ground_km(), Some(facing), field), &by);
+                        add(
+                            self.arriving(ground, self.tables.ground_km(), Some(facing), field),
+                            &by,
+                        );
                     }
                 }
             }
@@ -317,7 +353,15 @@ impl Air<'_> {
     }
 
     /// What is left of the smooth light and of the haze's in one direction.
-    fn factors(&self, whole: &SkyView, eye_km: f64, row: usize, column: usize, sign: f64, field: &Field) -> [Shares; 2] {
+    fn factors(
+        &self,
+        whole: &SkyView,
+        eye_km: f64,
+        row: usize,
+        column: usize,
+        sign: f64,
+        field: &Field,
+    ) -> [Shares; 2] {
         let azimuth = whole.shape.azimuth(column);
         let elevation = whole.shape.elevation_beside(row, whole.horizon);
         let ((sin, cos), (sin_az, cos_az)) = (elevation.sin_cos(), azimuth.sin_cos());
