@@ -227,16 +227,17 @@ fn light_fails_at_the_contacts() {
                         |arcsec: f64| photopic(shadow.light_at(Angle::from_arcsec(arcsec))).ln();
                     at(arcsec + 6.0) - at(arcsec - 6.0)
                 };
-                let steepest =
-                    (2300..2800).map(f64::from).max_by(|a, b| slope(*a).total_cmp(&slope(*b)));
-                let steepest = steepest.expect("some");
+                let steepest = (2300..2800)
+                    .map(f64::from)
+                    .max_by(|a, b| slope(*a).total_cmp(&slope(*b)))
+                    .expect("some");
                 let umbra = (moon.offset + moon.disc_radius() * side).arcsec();
                 // How fast the limb crosses the edge.
                 let next = at(&u, 1.0);
                 let per_s = (next.offset - moon.offset).arcsec().abs() / 60.0;
                 let off_s = (steepest - umbra) / per_s;
                 println!(
-                    "{from} {name}: steepest {steepest:.0}\", contact {umbra:.1}\": {off_s:+.1} s"
+                    "{from} {name}: steepest {steepest:.1}\", contact {umbra:.1}\": {off_s:+.1} s"
                 );
                 assert!(off_s.abs() < 10.0, "{from} {name}: {off_s} s");
             }

@@ -320,12 +320,15 @@ impl Rings {
         let last = (((offset + sun) / self.width_rad) as usize).min(RINGS - 1);
         for ring in first..=last {
             let (start, end) = (ring as f64 * self.width_rad, (ring + 1) as f64 * self.width_rad);
-            let middle = 0.5 * (start + end);
-            let solid = 0.5 * (end * end - start * start);
+            // The first and the last ring reach beyond the Sun.
+            let (near, far) = (start.max(offset - sun), end.min(offset + sun));
+            let middle = 0.5 * (near + far);
+            let solid = 0.5 * (far * far - near * near);
             let Some(moments) = moments(middle, offset, sun) else { continue };
+            let inside = solid / (0.5 * (end * end - start * start));
             for k in 0..LEN {
                 let radiance: f64 = laws[k].iter().zip(moments).map(|(a, m)| a * m).sum();
-                light[k] += radiance * self.seen[ring][k];
+                light[k] += radiance * self.seen[ring][k] * inside;
                 whole[k] += radiance * solid;
             }
         }

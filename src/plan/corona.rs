@@ -33,7 +33,7 @@ const IN_A_POINT: &str = "in the light of the Sun, which is a point";
 
 /// The corona on the picture.
 pub enum Corona {
-    Disc(Disc),
+    Disc(Box<Disc>),
     /// Its light through the air, lux.
     Point(Xyzv),
 }
@@ -78,5 +78,5 @@ pub fn seen(object: &LitObject, night: &Night, camera: &Camera) -> Result<Corona
             node.luminance = node.luminance * scale;
         }
     }
-    Ok(Corona::Disc(disc))
+    Ok(Corona::Disc(Box::new(disc)))
 }

@@ -72,7 +72,7 @@ pub fn lay_in(
             match corona::seen(object, night, &camera) {
                 Ok(Corona::Disc(disc)) => {
                     ledger.draw("corona");
-                    plan.discs.push(disc);
+                    plan.discs.push(*disc);
                 }
                 Ok(Corona::Point(light)) => {
                     match lay_point(&camera, object.apparent, light, &mut plan.splats) {
