@@ -6,7 +6,9 @@ use nocturne::air::Atmosphere;
 use nocturne::almanac::eclipse::{LunarEclipse, lunar_eclipses, solar_eclipses};
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::{Body, Ephemeris};
-use nocturne::light::earth_shadow::{Danjon, EarthShadow, ShadowDistances, ShadowedMoon};
+use nocturne::light::earth_shadow::{
+    Danjon, EarthShadow, ShadowDistances, ShadowRow, ShadowedMoon,
+};
 use nocturne::light::earthshine::{self, EarthView};
 use nocturne::light::moon::{self, MoonView};
 use nocturne::light::night::Night;
@@ -215,21 +217,22 @@ fn light_fails_at_the_contacts() {
             let u = &contacts.total.expect("it is total")[k];
             let (before, after) = (limb(&at(u, -5.0 * sign), 1.0), limb(&at(u, 5.0 * sign), 1.0));
             assert!(before > 5e-3 && after < 1e-3, "U2: {before:e} {after:e}");
-            // The steepest place of the logarithm is where Danjon has the umbra, within 10 s: 5".
+            // The steepest place of the logarithm is where Danjon has the umbra, within 10 s.
             let [partial, total] = [contacts.partial, contacts.total].map(|c| c.expect("total")[k]);
             for (name, u, side) in [("U1 or U4", partial, -1.0), ("U2 or U3", total, 1.0)] {
                 let moon = at(&u, 0.0);
                 let shadow =
                     EarthShadow::new(&Atmosphere::default(), Danjon::default(), moon.distances)
                         .unwrap();
-                let slope = |arcsec: f64| {
-                    let at =
-                        |arcsec: f64| photopic(shadow.light_at(Angle::from_arcsec(arcsec))).ln();
-                    at(arcsec + 6.0) - at(arcsec - 6.0)
+                // Of the steps of the table, 4" there, the steepest.
+                let rows = shadow.rows(&sun::irradiance_1au());
+                let slope = |a: &ShadowRow, b: &ShadowRow| {
+                    (b.light.y / a.light.y).ln() / (b.offset - a.offset).arcsec()
                 };
-                let steepest = (2300..2800)
-                    .map(f64::from)
-                    .max_by(|a, b| slope(*a).total_cmp(&slope(*b)))
+                let steepest = rows
+                    .windows(2)
+                    .max_by(|a, b| slope(&a[0], &a[1]).total_cmp(&slope(&b[0], &b[1])))
+                    .map(|step| 0.5 * (step[0].offset + step[1].offset).arcsec())
                     .expect("some");
                 let umbra = (moon.offset + moon.disc_radius() * side).arcsec();
                 // How fast the limb crosses the edge.

@@ -19,9 +19,9 @@
 //!
 //! *Size.* There is no rule of enlargement in it. The air makes the shadow larger by itself. Where the
 //! upper limb of the Sun sinks below 71 km, by Danjon's enlargement of 1 % of the equatorial radius, there
-//! the logarithm of the light falls most steeply: within 2" for L = 0 to 2.5 and 4" for L = 4, at any
-//! distance of the Moon. Above it a crescent is left, below only light that the air bent. In eclipses
-//! 1" is 2 s of time.
+//! the logarithm of the light falls most steeply: within 3" for L = 0 to 2.5 and 4" for L = 4, at any
+//! distance of the Moon. Above it a crescent is left, below only light that the air bent. The
+//! Moon's limb crosses 3" in 5 to 10 s.
 //!
 //! *Scattered light.* Sunlight that the limb scatters towards the Moon is added in its first order
 //! ([`limb`]): as Garcia-Munoz & Pallé 2011, *JQSRT* 112, 1609, find, it matters in the blue and in
@@ -31,8 +31,8 @@
 //! its radius), dispersion, weather and ozone that differ along the limb, bands of oxygen and water.
 //!
 //! *Accuracy.* The table is read within 2 % (tested). The penumbra is that of an opaque Earth of
-//! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 5" of the umbra of
-//! Danjon, 10 s (tested for the eclipses of 2025-03-14, 2026-03-03 and 2029-01-01). The umbra is as dark as
+//! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 3" of the umbra of
+//! Danjon, and within 10 s of each contact (tested for the eclipses of 2025-03-14, 2026-03-03 and 2029-01-01). The umbra is as dark as
 //! the air along the terminator makes it, which nobody knows in advance: that is [`Danjon`]'s number.
 //! In its middle, at mean distances, for L = 0 to 4: 2.0e-6, 5.8e-6, 1.5e-5, 3.5e-5 and 8.0e-5 of the
 //! illuminance of the full Sun, 14.2 to 10.2 magnitudes; the eclipse of 2025-03-14 has the whole Moon
