@@ -32,8 +32,9 @@
 //!
 //! *Accuracy.* The table is read within 2 % (tested). The penumbra is that of an opaque Earth of
 //! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 3" of the umbra of
-//! Danjon, and within 10 s of each contact (tested for the eclipses of 2025-03-14, 2026-03-03 and 2029-01-01). The umbra is as dark as
-//! the air along the terminator makes it, which nobody knows in advance: that is [`Danjon`]'s number.
+//! Danjon, and within 10 s of each contact (tested for the eclipses of 2025-03-14, 2026-03-03 and
+//! 2029-01-01). The umbra is as dark as the air along the terminator makes it, which nobody knows in
+//! advance: that is [`Danjon`]'s number.
 //! In its middle, at mean distances, for L = 0 to 4: 2.0e-6, 5.8e-6, 1.5e-5, 3.5e-5 and 8.0e-5 of the
 //! illuminance of the full Sun, 14.2 to 10.2 magnitudes; the eclipse of 2025-03-14 has the whole Moon
 //! at magnitude 0.7, -0.4, -1.5, -2.6 and -3.8. At 40' from the axis light of 450 nm is 2.3 times
