@@ -18,7 +18,7 @@ struct Disc {
     // Sine and cosine of the altitude of the centre, without air, and the sine of the angular radius.
     centre: vec4f,
     // From the body to the Sun, in axes of the disc: level, up, away from the observer; w is the law:
-    // 0 Sun, 1 Moon, 2 Lambert.
+    // 0 Sun, 1 Moon, 2 Lambert, 3 corona.
     to_sun: vec4f,
     // Rows: the body's own axes in those of the disc.
     body_from_disc: mat3x3f,
@@ -41,7 +41,8 @@ struct Disc {
 
 // A disc in one band of colour.
 struct Band {
-    // Limb darkening: I(mu) / I(1) = sum of a_k mu^k.
+    // Limb darkening: I(mu) / I(1) = sum of a_k mu^k. Of the corona what counts for the powers -2.5, -7 and
+    // -17 of the distance in radii of the Sun, then how many of them the disc has.
     limb: array<vec4f, 2>,
     // By apparent altitude across the disc: the luminance of a surface whose shape is one, seen
     // through the air.
@@ -54,6 +55,7 @@ const SUN: u32 = 0;
 const MOON: u32 = 1;
 // Place among the nodes of what no horizon cuts.
 const UNCUT: f32 = 1e6;
+const CORONA: u32 = 3;
 // Bands of light of a globe for each band of colour.
 const CHANNELS: u32 = 4;
 
@@ -102,6 +104,13 @@ fn shape(band: u32, normal: vec3f, cos_emission: f32) -> f32 {
         let low = bands[band].limb[0];
         let high = bands[band].limb[1];
         return low.x + m * (low.y + m * (low.z + m * (low.w + m * (high.x + m * high.y))));
+    }
+    if law == CORONA {
+        let coefficients = bands[band].limb[0];
+        let radii = length(normal.xy) * coefficients.w;
+        let inverse = 1.0 / max(radii, 1.0);
+        let powers = vec3f(pow(inverse, 2.5), pow(inverse, 7.0), pow(inverse, 17.0));
+        return select(0.0, dot(coefficients.xyz, powers), radii >= 1.0);
     }
     let cos_incidence = dot(normal, disc.to_sun.xyz);
     if cos_incidence <= 0.0 {

@@ -8,9 +8,10 @@ struct Source {
 }
 
 struct Sky {
-    // The Sun and the Moon.
+    // The Sun and the Moon, or both sides of the Sun.
     sources: array<Source, 2>,
-    // For each: 0 without light, 1 without haze, 2 with haze.
+    // For each: 0 without light, 1 without haze, 2 with haze; and 4 if it is for the side clockwise from
+    // its source alone, 8 if for the other.
     shines: vec2u,
     // Columns, rows above the horizon and below it, and values of the phase function.
     azimuths: u32,
@@ -68,7 +69,7 @@ fn scattered(source: u32, dir: vec3f, azimuth_from_source: Radians, row: Row) ->
     let smooth_low = mix(table[low], table[low + 2u], along);
     let smooth_high = mix(table[high], table[high + 2u], along);
     var light = mix(smooth_low, smooth_high, row.share);
-    if sky.shines[source] == 2u {
+    if (sky.shines[source] & 2u) != 0u {
         let haze_low = mix(table[low + 1u], table[low + 3u], along);
         let haze_high = mix(table[high + 1u], table[high + 3u], along);
         let to_source = sky.sources[source].dir.xyz;
@@ -86,9 +87,12 @@ fn light_of_side(dir: vec3f, altitude: Radians, above: bool) -> LuminanceXyzv {
     let azimuth = atan2(dir.x, dir.y);
     for (var source = 0u; source < 2u; source++) {
         if sky.shines[source] != 0u {
-            let turned = abs(azimuth - sky.sources[source].dir.w);
-            let from_source = abs(turned - 2.0 * PI * round(turned / (2.0 * PI)));
-            light += scattered(source, dir, from_source, row);
+            let turned = azimuth - sky.sources[source].dir.w;
+            let from_source = turned - 2.0 * PI * round(turned / (2.0 * PI));
+            let other_side = select(8u, 4u, from_source < 0.0);
+            if (sky.shines[source] & other_side) == 0u {
+                light += scattered(source, dir, abs(from_source), row);
+            }
         }
     }
     return light;

@@ -13,6 +13,7 @@ pub mod earth_shadow;
 pub mod earthshine;
 pub mod limb_law;
 pub mod moon;
+pub mod moon_shadow;
 pub mod night;
 pub mod planets;
 pub mod point_light;

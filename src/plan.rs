@@ -5,6 +5,7 @@
 
 pub mod body;
 pub mod classic;
+pub mod corona;
 pub mod disc;
 pub mod globe;
 pub mod lay;
@@ -62,6 +63,9 @@ pub struct SkyPlan {
     pub horizon: Angle,
     /// Sunlight scattered by the air and the ground; none when the Sun is too far below the horizon.
     pub sun: Option<SourceSky>,
+    /// The same on the other side of the Sun, against the clock, where the shadow of the Moon makes the
+    /// two sides differ; `sun` is then the side clockwise from it.
+    pub sun_left: Option<SourceSky>,
     /// Moonlight scattered by the air and the ground; none when the Moon is down.
     pub moon: Option<SourceSky>,
     /// What there is without Sun and Moon, by the rows of [`SKY_SHAPE`], cd/m2.
@@ -74,6 +78,26 @@ pub struct SourceSky {
     pub azimuth: Angle,
     /// X, Y, Z and V, cd/m2, in [`SKY_SHAPE`].
     pub view: SkyView,
+}
+
+/// The part of the sky that a table of a source is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    Both,
+    /// From the source clockwise, seen from above.
+    Clockwise,
+    Other,
+}
+
+impl Side {
+    /// Whether an azimuth from the source, -180 to 180 degrees, is on this side.
+    fn holds(self, from_source: Angle) -> bool {
+        match self {
+            Side::Both => true,
+            Side::Clockwise => from_source >= Angle::ZERO,
+            Side::Other => from_source < Angle::ZERO,
+        }
+    }
 }
 
 impl SourceSky {
@@ -96,7 +120,22 @@ fn xyzv(channels: &[f64]) -> Xyzv {
 impl SkyPlan {
     /// No light at all.
     pub fn black(horizon: Angle) -> SkyPlan {
-        SkyPlan { horizon, sun: None, moon: None, dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()] }
+        SkyPlan {
+            horizon,
+            sun: None,
+            sun_left: None,
+            moon: None,
+            dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()],
+        }
+    }
+
+    /// The sources and the sides of them that they light. A Moon that shadows the air sends no light.
+    pub fn sources(&self) -> [Option<(&SourceSky, Side)>; 2] {
+        let [sun, left, moon] = [&self.sun, &self.sun_left, &self.moon].map(Option::as_ref);
+        match left {
+            Some(left) => [sun.map(|sun| (sun, Side::Clockwise)), Some((left, Side::Other))],
+            None => [sun, moon].map(|source| source.map(|source| (source, Side::Both))),
+        }
     }
 
     /// The light of the sky, or of the ground below the horizon, from an apparent direction, cd/m2:
@@ -107,9 +146,13 @@ impl SkyPlan {
         let (row, up) = SKY_SHAPE.row_at(altitude, self.horizon, above);
         let mut light = self.dark[row] * (1.0 - up) + self.dark[row + 1] * up;
         let azimuth = dir.azimuth();
-        for source in [&self.sun, &self.moon].into_iter().flatten() {
+        for (source, side) in self.sources().into_iter().flatten() {
             let mut channels = [0.0; 4];
-            source.view.sample_side(altitude, azimuth - source.azimuth, above, &mut channels);
+            let from_source = (azimuth - source.azimuth).signed();
+            if !side.holds(from_source) {
+                continue;
+            }
+            source.view.sample_side(altitude, from_source, above, &mut channels);
             light += xyzv(&channels);
         }
         light

@@ -6,7 +6,9 @@ use nocturne::air::Atmosphere;
 use nocturne::almanac::eclipse::{LunarEclipse, lunar_eclipses, solar_eclipses};
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::{Body, Ephemeris};
-use nocturne::light::earth_shadow::{Danjon, EarthShadow, ShadowDistances, ShadowedMoon};
+use nocturne::light::earth_shadow::{
+    Danjon, EarthShadow, ShadowDistances, ShadowRow, ShadowedMoon,
+};
 use nocturne::light::night::Night;
 use nocturne::light::solar_eclipse::CoveredSun;
 use nocturne::light::spectrum::Transmittance;
@@ -169,15 +171,15 @@ fn the_table_is_read_within_two_per_cent() {
         let there = photopic(shifted.light_at(Angle::from_arcmin(arcmin)));
         assert!((there / here - 1.0).abs() < 0.06, "{arcmin}': {here:e} {there:e}");
     }
-    // Within one step logarithms are nearly straight: thirds of three nodes against the middle one.
-    for step in 1..140 {
-        let width = ShadowDistances::MEAN.outer_rim().rad() / 191.0;
-        let at = |node: f64| photopic(USUAL.light_at(Angle::from_rad(width * node))).ln();
-        let node = f64::from(step);
-        let bend = at(node) - 0.5 * (at(node - 1.0) + at(node + 1.0));
+    // Within one step logarithms are nearly straight: three nodes against the middle one.
+    let rows = USUAL.rows(&sun::irradiance_1au());
+    let ln = |offset: Angle| photopic(USUAL.light_at(offset)).ln();
+    for nodes in rows.windows(3).take_while(|nodes| nodes[1].offset.arcmin() < 55.0) {
+        let [a, b, c] = [0, 1, 2].map(|k: usize| nodes[k].offset.rad());
+        let [la, lb, lc] = [0, 1, 2].map(|k: usize| ln(nodes[k].offset));
+        let bend = lb - (la * (c - b) + lc * (b - a)) / (c - a);
         // What is left out between nodes is an eighth of the second difference, a quarter of this.
-        let is_rim = (104..=112).contains(&step);
-        assert!(0.25 * bend.abs() < if is_rim { 0.1 } else { 0.02 }, "{step}: {bend}");
+        assert!(0.25 * bend.abs() < 0.02, "{:.1}': {bend}", nodes[1].offset.arcmin());
     }
 }
 
@@ -213,20 +215,33 @@ fn light_fails_at_the_contacts() {
             let u = &contacts.total.expect("it is total")[k];
             let (before, after) = (limb(&at(u, -5.0 * sign), 1.0), limb(&at(u, 5.0 * sign), 1.0));
             assert!(before > 5e-3 && after < 1e-3, "U2: {before:e} {after:e}");
-            // The steepest place of the logarithm is where Danjon has the umbra, within 40 s: 20".
-            let moon = at(u, 0.0);
-            let shadow =
-                EarthShadow::new(&Atmosphere::default(), Danjon::default(), moon.distances)
-                    .unwrap();
-            let slope = |arcsec: f64| {
-                let at = |arcsec: f64| photopic(shadow.light_at(Angle::from_arcsec(arcsec))).ln();
-                at(arcsec + 12.0) - at(arcsec - 12.0)
-            };
-            let steepest =
-                (2300..2800).map(f64::from).max_by(|a, b| slope(*a).total_cmp(&slope(*b)));
-            let umbra = (moon.offset + moon.disc_radius()).arcsec();
-            println!("{from}: steepest {:.0}\", contact {umbra:.0}\"", steepest.unwrap());
-            assert!((steepest.unwrap() - umbra).abs() < 20.0, "{steepest:?} {umbra}");
+            // The steepest place of the logarithm is where Danjon has the umbra, within 10 s.
+            let [partial, total] = [contacts.partial, contacts.total].map(|c| c.expect("total")[k]);
+            for (name, u, side) in [("U1 or U4", partial, -1.0), ("U2 or U3", total, 1.0)] {
+                let moon = at(&u, 0.0);
+                let shadow =
+                    EarthShadow::new(&Atmosphere::default(), Danjon::default(), moon.distances)
+                        .unwrap();
+                // Of the steps of the table, 4" there, the steepest.
+                let rows = shadow.rows(&sun::irradiance_1au());
+                let slope = |a: &ShadowRow, b: &ShadowRow| {
+                    (b.light.y / a.light.y).ln() / (b.offset - a.offset).arcsec()
+                };
+                let steepest = rows
+                    .windows(2)
+                    .max_by(|a, b| slope(&a[0], &a[1]).total_cmp(&slope(&b[0], &b[1])))
+                    .map(|step| 0.5 * (step[0].offset + step[1].offset).arcsec())
+                    .expect("some");
+                let umbra = (moon.offset + moon.disc_radius() * side).arcsec();
+                // How fast the limb crosses the edge.
+                let next = at(&u, 1.0);
+                let per_s = (next.offset - moon.offset).arcsec().abs() / 60.0;
+                let off_s = (steepest - umbra) / per_s;
+                println!(
+                    "{from} {name}: steepest {steepest:.1}\", contact {umbra:.1}\": {off_s:+.1} s"
+                );
+                assert!(off_s.abs() < 10.0, "{from} {name}: {off_s} s");
+            }
         }
         let middle = at(&eclipse.greatest, 0.0);
         assert!(limb(&middle, 1.0) < 1.5e-3);

@@ -265,6 +265,40 @@ fn no_eclipse_of_two_centuries_is_missed_or_invented() {
     }
 }
 
+/// P1, U1, U2, greatest, U3, U4 and P4 in TT by the Swiss Ephemeris: the same rows as in the table.
+#[test]
+fn the_moons_contacts_of_2025_2026_and_2029_come_within_ten_seconds() {
+    let mut largest = Largest::default();
+    let mut seen = 0;
+    for_each_row(CONTACTS, |row| {
+        let greatest = row.number("greatest");
+        let days = [2_460_748, 2_461_102, 2_462_137];
+        if row.text("body") != "moon" || !days.contains(&(greatest as i64)) {
+            return;
+        }
+        seen += 1;
+        let e = lunar_at(greatest);
+        assert_eq!(e.kind, LunarKind::Total);
+        let [partial, total] = [e.contacts.partial, e.contacts.total].map(|c| c.expect("total"));
+        let [p1, p4] = e.contacts.penumbral;
+        for (name, column, ours) in [
+            ("P1", "outer_1", p1),
+            ("U1", "umbra_1", partial[0]),
+            ("U2", "inner_1", total[0]),
+            ("greatest", "greatest", e.greatest),
+            ("U3", "inner_2", total[1]),
+            ("U4", "umbra_2", partial[1]),
+            ("P4", "outer_2", p4),
+        ] {
+            let off_s = after_s(&ours, row.number(column));
+            println!("{} {name}: {off_s:+.1} s", e.greatest);
+            largest.check(name, off_s, 10.0, &e.greatest);
+        }
+    });
+    largest.print();
+    assert_eq!(seen, 3);
+}
+
 #[test]
 fn contacts_with_the_shadows_come_when_they_should() {
     let mut largest = Largest::default();

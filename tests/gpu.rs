@@ -147,6 +147,7 @@ fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
     let sky = SkyPlan {
         horizon: Angle::ZERO,
         sun: Some(source(sun_azimuth, |a| [a, 0.0, 0.0, 0.0])),
+        sun_left: None,
         moon: Some(source(moon_azimuth, |a| [0.0, a, 0.0, 0.0])),
         dark: (0..SKY_SHAPE.rows()).map(dark).collect(),
     };
@@ -234,6 +235,7 @@ fn hazy_sky(sun_azimuth: Angle, sun_elevation: Angle) -> SkyPlan {
     SkyPlan {
         horizon,
         sun: Some(source(sun_azimuth, sun_elevation, 1.0)),
+        sun_left: None,
         moon: Some(source(sun_azimuth + Angle::from_deg(100.0), Angle::from_deg(20.0), 0.3)),
         dark: vec![Xyzv::new(1.0, 1.0, 1.0, 2.0); SKY_SHAPE.rows()],
     }

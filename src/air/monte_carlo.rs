@@ -31,6 +31,7 @@ use rayon::prelude::*;
 use crate::air::Atmosphere;
 use crate::air::scattering::lanes::LANES;
 use crate::air::scattering::profile::{Optics, Profile};
+use crate::air::scattering::shaded::LeftAt;
 use crate::air::scattering::{EARTH_RADIUS_KM, ScatteringError};
 use crate::units::Angle;
 
@@ -38,7 +39,7 @@ use first_order::first_order;
 use matter::{Light, Matter};
 use random::Random;
 use shells::Shells;
-use walk::{LitTable, Scene, Source, Start, Walker};
+use walk::{LitTable, Scene, Shade, Source, Start, Walker};
 
 /// Paths of one stream.
 const BLOCK_PATHS: u64 = 128;
@@ -127,6 +128,33 @@ impl MonteCarlo {
         azimuth_from_sun: Angle,
         effort: &Effort,
     ) -> Vec<Estimate> {
+        let view = (view_elevation, azimuth_from_sun);
+        self.seen(observer_height_km, cos_sun_zenith, view, None, effort)
+    }
+
+    /// The same where something stands before the source, seen from a part of the air: what is left of
+    /// it at each place. Paths do not know where it is bright: of deep shade they need many.
+    pub fn radiance_in_shade(
+        &self,
+        observer_height_km: f64,
+        cos_sun_zenith: f64,
+        (view_elevation, azimuth_from_sun): (Angle, Angle),
+        left_at: &LeftAt,
+        effort: &Effort,
+    ) -> Vec<Estimate> {
+        let shade = Shade { left_at, origin: DVec3::Z * EARTH_RADIUS_KM };
+        let view = (view_elevation, azimuth_from_sun);
+        self.seen(observer_height_km, cos_sun_zenith, view, Some(shade), effort)
+    }
+
+    fn seen(
+        &self,
+        observer_height_km: f64,
+        cos_sun_zenith: f64,
+        (view_elevation, azimuth_from_sun): (Angle, Angle),
+        shade: Option<Shade>,
+        effort: &Effort,
+    ) -> Vec<Estimate> {
         let sun = sun_direction(cos_sun_zenith);
         let r = (EARTH_RADIUS_KM + observer_height_km)
             .clamp(self.shells.ground_km(), self.shells.top_km());
@@ -135,7 +163,7 @@ impl MonteCarlo {
         let (sin_azimuth, cos_azimuth) = azimuth_from_sun.sin_cos();
         let dir = DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin).normalize();
         let of_band = |band: &Band| {
-            let scene = self.scene(band, Source::Beam(sun));
+            let scene = Scene { shade, ..self.scene(band, Source::Beam(sun)) };
             let known = first_order(&scene, eye, dir, sun);
             estimate(scene, Start::Sight { eye, dir }, 2, known, effort)
         };
@@ -166,7 +194,7 @@ impl MonteCarlo {
     }
 
     fn scene<'a>(&'a self, band: &'a Band, source: Source) -> Scene<'a> {
-        Scene { shells: &self.shells, matter: &band.matter, lit: &band.lit, source }
+        Scene { shells: &self.shells, matter: &band.matter, lit: &band.lit, source, shade: None }
     }
 }
 

@@ -34,6 +34,7 @@ mod path;
 pub(in crate::air) mod profile;
 mod rays;
 mod reconstruction;
+pub mod shaded;
 mod sky_view;
 mod solve;
 mod source;

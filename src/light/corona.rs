@@ -24,6 +24,8 @@ pub const TOTAL: f64 = 1.0e-6;
 /// Radii of the Sun at which it is cut off. Beyond, it is the zodiacal light.
 pub const OUTER_RADII: f64 = 10.0;
 
+/// Coefficients of the powers -2.5, -7 and -17.
+const BAUMBACH: [f64; 3] = [0.0532, 1.425, 2.565];
 /// Rings of the integrals.
 const RINGS: usize = 256;
 
@@ -53,8 +55,16 @@ pub fn visible_share(moon_radii: f64, separation_radii: f64) -> f64 {
     (*SCALE * sum(seen) / TOTAL).clamp(0.0, 1.0)
 }
 
+/// The law for a renderer: the coefficients of [`relative_radiance`] for the powers -2.5, -7 and -17 of
+/// the distance in radii, then where it ends.
+pub fn law() -> [f64; 6] {
+    let [a, b, c] = BAUMBACH.map(|a| *SCALE * a);
+    [a, b, c, OUTER_RADII, 0.0, 0.0]
+}
+
 fn baumbach(radii: f64) -> f64 {
-    0.0532 * radii.powf(-2.5) + 1.425 * radii.powi(-7) + 2.565 * radii.powi(-17)
+    let [a, b, c] = BAUMBACH;
+    a * radii.powf(-2.5) + b * radii.powi(-7) + c * radii.powi(-17)
 }
 
 /// The law over all rings in units of the area of the disc, each ring with its weight.

@@ -17,9 +17,11 @@
 //! integrals of the powers of `mu` along a ring serve all wavelengths. Sums are divided by the same
 //! sums without the Earth, so that nothing is lost outside the shadow.
 //!
-//! *Size.* There is no rule of enlargement in it. The air makes the shadow larger by itself: light
-//! begins to fail, by refraction, 80 km above the ground, which is what Danjon's enlargement of 1 % of
-//! the equatorial radius (71 km) says for the contacts of [`crate::almanac::eclipse`].
+//! *Size.* There is no rule of enlargement in it. The air makes the shadow larger by itself. Where the
+//! upper limb of the Sun sinks below 71 km, by Danjon's enlargement of 1 % of the equatorial radius, there
+//! the logarithm of the light falls most steeply: within 3" for L = 0 to 2.5 and 4" for L = 4, at any
+//! distance of the Moon. Above it a crescent is left, below only light that the air bent. The
+//! Moon's limb crosses 3" in 5 to 10 s.
 //!
 //! *Scattered light.* Sunlight that the limb scatters towards the Moon is added in its first order
 //! ([`limb`]): as Garcia-Munoz & Pallé 2011, *JQSRT* 112, 1609, find, it matters in the blue and in
@@ -29,9 +31,10 @@
 //! its radius), dispersion, weather and ozone that differ along the limb, bands of oxygen and water.
 //!
 //! *Accuracy.* The table is read within 2 % (tested). The penumbra is that of an opaque Earth of
-//! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 8" of the umbra of
-//! Danjon (tested for the eclipses of 2025-03-14, 2026-03-03 and 2029-01-01). The umbra is as dark as
-//! the air along the terminator makes it, which nobody knows in advance: that is [`Danjon`]'s number.
+//! 6407 km within 0.005 of the full Sun, and the light falls most steeply within 3" of the umbra of
+//! Danjon, and within 10 s of each contact (tested for the eclipses of 2025-03-14, 2026-03-03 and
+//! 2029-01-01). The umbra is as dark as the air along the terminator makes it, which nobody knows in
+//! advance: that is [`Danjon`]'s number.
 //! In its middle, at mean distances, for L = 0 to 4: 2.0e-6, 5.8e-6, 1.5e-5, 3.5e-5 and 8.0e-5 of the
 //! illuminance of the full Sun, 14.2 to 10.2 magnitudes; the eclipse of 2025-03-14 has the whole Moon
 //! at magnitude 0.7, -0.4, -1.5, -2.6 and -3.8. At 40' from the axis light of 450 nm is 2.3 times
@@ -42,6 +45,8 @@ mod place;
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
+
 use crate::air::{AirError, Atmosphere, EARTH_RADIUS_KM};
 use crate::light::spectrum::{LEN, Spectrum, Transmittance, wavelength_nm};
 use crate::light::sun::LimbDarkening;
@@ -50,10 +55,16 @@ use crate::units::{AU_KM, Angle, SUN_RADIUS_KM, Xyzv};
 pub use limb::{Danjon, EarthLimb, LIMB_TOP_KM, LimbRay, OutsideDanjon};
 pub use place::ShadowedMoon;
 
-/// Nodes of the table, equally far apart from the axis of the shadow to its outermost rim.
-pub const NODES: usize = 192;
+/// Steps of the table about the edge of the umbra, and all others from the axis of the shadow to its
+/// outermost rim.
+const EDGE_STEPS: usize = 64;
+const STEPS: usize = 191;
+/// How far the steps about the edge reach to both sides of it, and where it is: light fails most steeply
+/// at a Sun that stands behind this height.
+const EDGE_REACH: Angle = Angle::from_arcsec(128.0);
+const EDGE_KM: f64 = 71.0;
 /// Rings about the Earth's centre that sort the light by where it comes from.
-const RINGS: usize = 1024;
+const RINGS: usize = 2048;
 /// Points along half of a ring.
 const ALONG: usize = 8;
 /// Rings across the Moon's disc.
@@ -90,6 +101,20 @@ impl ShadowDistances {
         let top = self.limb_rad(EARTH_RADIUS_KM + LIMB_TOP_KM);
         Angle::from_rad(top) + self.sun_radius()
     }
+
+    /// Nodes of the table: in even steps, shorter ones about the edge of the umbra.
+    fn nodes_rad(&self) -> Vec<f64> {
+        let (rim, sun) = (self.outer_rim().rad(), self.sun_radius().rad());
+        let edge = self.limb_rad(EARTH_RADIUS_KM + EDGE_KM) - sun;
+        let [first, last] = [edge - EDGE_REACH.rad(), edge + EDGE_REACH.rad()];
+        let share = (first / (first + rim - last)).clamp(0.0, 1.0);
+        let before = ((STEPS as f64 * share) as usize).clamp(1, STEPS - 1);
+        let pieces = [(0.0, first, before), (first, last, EDGE_STEPS), (last, rim, STEPS - before)];
+        let even = |(from, to, steps): (f64, f64, usize)| {
+            (0..steps).map(move |step| from + (to - from) * step as f64 / steps as f64)
+        };
+        pieces.into_iter().flat_map(even).chain([rim]).collect()
+    }
 }
 
 /// The light at a point of the Moon over that of the full Sun, by wavelength, against the angle
@@ -97,8 +122,8 @@ impl ShadowDistances {
 #[derive(Debug, Clone, PartialEq)]
 pub struct EarthShadow {
     distances: ShadowDistances,
-    /// Between nodes, radians.
-    step_rad: f64,
+    /// Of the nodes, ascending from zero, radians.
+    offsets_rad: Vec<f64>,
     /// Logarithms of the shares of light, by node and wavelength.
     logarithms: Vec<[f64; LEN]>,
 }
@@ -133,16 +158,17 @@ impl EarthShadow {
     pub fn of_limb(limb: &EarthLimb, distances: ShadowDistances) -> EarthShadow {
         let sun_rad = distances.sun_radius().rad();
         let rim_rad = distances.outer_rim().rad();
-        let step_rad = rim_rad / (NODES - 1) as f64;
+        let offsets_rad = distances.nodes_rad();
         let rings = Rings::lit_through(limb, &distances, rim_rad + sun_rad);
         let laws: Vec<[f64; 6]> =
             (0..LEN).map(|k| LimbDarkening::at_nm(wavelength_nm(k)).coefficients()).collect();
         let scattered = scattered(limb, &distances);
-        let node =
-            |node: usize| rings.logarithms_at(step_rad * node as f64, sun_rad, &laws, &scattered);
-        let mut logarithms: Vec<[f64; LEN]> = (0..NODES - 1).map(node).collect();
-        logarithms.push([0.0; LEN]);
-        EarthShadow { distances, step_rad, logarithms }
+        let node = |&offset: &f64| rings.logarithms_at(offset, sun_rad, &laws, &scattered);
+        let mut logarithms: Vec<[f64; LEN]> = offsets_rad.par_iter().map(node).collect();
+        if let Some(rim) = logarithms.last_mut() {
+            *rim = [0.0; LEN];
+        }
+        EarthShadow { distances, offsets_rad, logarithms }
     }
 
     /// The distances that it was made for.
@@ -153,12 +179,13 @@ impl EarthShadow {
     /// Share of the Sun's light, by wavelength, where the centres of the Sun and of the Earth are seen
     /// this far apart. 1 outside the shadow.
     pub fn light_at(&self, offset: Angle) -> Transmittance {
-        let place = offset.abs().rad() / self.step_rad;
-        if place >= (NODES - 1) as f64 {
+        let (at, nodes) = (offset.abs().rad(), &self.offsets_rad);
+        let after = nodes.partition_point(|&node| node <= at).max(1);
+        if after >= nodes.len() {
             return Transmittance::CLEAR;
         }
-        let node = place as usize;
-        let share = place - node as f64;
+        let node = after - 1;
+        let share = (at - nodes[node]) / (nodes[after] - nodes[node]);
         let (low, high) = (&self.logarithms[node], &self.logarithms[node + 1]);
         let logarithm = |k: usize| low[k] + (high[k] - low[k]) * share;
         Transmittance::from_fractions(std::array::from_fn(|k| logarithm(k).exp()))
@@ -190,12 +217,12 @@ impl EarthShadow {
     /// The table, for a renderer: shares in four bands, and what is left of a light.
     pub fn rows(&self, light: &Spectrum) -> Vec<ShadowRow> {
         let row = |node: usize| {
-            let offset = Angle::from_rad(self.step_rad * node as f64);
+            let offset = Angle::from_rad(self.offsets_rad[node]);
             let shares = Transmittance::from_fractions(self.logarithms[node].map(f64::exp));
             let bands = BANDS_NM.map(|nm| shares.at_nm(nm));
             ShadowRow { offset, bands, light: (*light * shares).xyzv() }
         };
-        (0..NODES).map(row).collect()
+        (0..self.offsets_rad.len()).map(row).collect()
     }
 }
 
@@ -294,12 +321,15 @@ impl Rings {
         let last = (((offset + sun) / self.width_rad) as usize).min(RINGS - 1);
         for ring in first..=last {
             let (start, end) = (ring as f64 * self.width_rad, (ring + 1) as f64 * self.width_rad);
-            let middle = 0.5 * (start + end);
-            let solid = 0.5 * (end * end - start * start);
+            // The first and the last ring reach beyond the Sun.
+            let (near, far) = (start.max(offset - sun), end.min(offset + sun));
+            let middle = 0.5 * (near + far);
+            let solid = 0.5 * (far * far - near * near);
             let Some(moments) = moments(middle, offset, sun) else { continue };
+            let inside = solid / (0.5 * (end * end - start * start));
             for k in 0..LEN {
                 let radiance: f64 = laws[k].iter().zip(moments).map(|(a, m)| a * m).sum();
-                light[k] += radiance * self.seen[ring][k];
+                light[k] += radiance * self.seen[ring][k] * inside;
                 whole[k] += radiance * solid;
             }
         }

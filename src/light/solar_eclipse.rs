@@ -6,14 +6,15 @@
 //! crowded towards the limb by taking them in the cosine of emergence. When little is left the
 //! [corona](crate::light::corona) is added.
 //!
+//! *The sky.* What is told here is the light at the observer. While more than 0.3 of it is left the sky
+//! that is drawn is that of a Sun which is as faint everywhere: right to a few per cent, as the share
+//! changes by 1 % over 35 km across the path. In deeper phases each part of the air has its own share
+//! ([`crate::light::moon_shadow`]), and in totality the sky is lit from outside the shadow, a hundred
+//! kilometres away: [`crate::air::scattering::shaded`].
+//!
 //! *Left out.* Mountains and valleys of the Moon's limb, and with them Baily's beads: the Moon is a
 //! circle of its mean radius, [`crate::units::MOON_RADIUS_KM`], and totality some seconds longer or
-//! shorter than [`crate::almanac::eclipse`] has it. **The sky**: what is told here is the light at the
-//! observer. The sky that is drawn from it is that of a Sun which is as faint everywhere. In
-//! partial phases that is right to a few per cent (the share changes by 1 % over 35 km across the
-//! path); in totality the sky is lit by air outside the shadow, a hundred kilometres away, which
-//! makes the yellow horizon all around and a sky of about a thousandth to a ten-thousandth of
-//! daylight (recalled). None of that is in it: a total eclipse is drawn too dark.
+//! shorter than [`crate::almanac::eclipse`] has it.
 //!
 //! *Accuracy.* 0.02 % of the Sun (tested against the area of two circles without limb darkening).
 

@@ -13,6 +13,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::frame::{Apparent, Dir, Horizon, View};
+use crate::light::corona;
 use crate::light::disc_light::disc_axes;
 use crate::units::{Angle, Xyzv};
 
@@ -33,6 +34,8 @@ pub enum SurfaceLaw {
     Lambert,
     /// A flattened globe with its own law, and rings.
     Planet(PlanetDisc),
+    /// Light around the Sun, over the mean radiance of its disc; dark within.
+    Corona,
 }
 
 /// Relative albedo in the body's own axes.
@@ -89,7 +92,7 @@ pub struct DiscNode {
 /// A disc in one band of colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscBand {
-    /// Coefficients of the limb darkening, for the Sun alone.
+    /// Coefficients of the limb darkening, for the Sun; of the corona its [law](crate::light::corona::law).
     pub limb_darkening: [f64; 6],
     /// Lowest first, at equal steps of the apparent altitude.
     pub nodes: Vec<DiscNode>,
@@ -165,6 +168,10 @@ impl DiscShape {
         }
         if let SurfaceLaw::Sun { limb_darkening } = &self.law {
             return limb_darkening.iter().rev().fold(0.0, |sum, a| sum * cos_emission + a);
+        }
+        if self.law == SurfaceLaw::Corona {
+            let sine = (1.0 - cos_emission * cos_emission).max(0.0).sqrt();
+            return corona::relative_radiance(sine * corona::OUTER_RADII);
         }
         let cos_incidence = normal.dot(self.dir_to_sun.vector());
         if cos_incidence <= 0.0 {

@@ -13,6 +13,7 @@ use crate::units::{Angle, Xyzv};
 
 use super::body::SeenBody;
 use super::classic::ClassicLight;
+use super::corona::{self, Corona};
 use super::globe::KeptGlobe;
 use super::ledger::Ledger;
 use super::skylight::{self, KeptAir, Origin, Shines};
@@ -80,6 +81,21 @@ pub fn lay_in(
     let mut moon = Some(moon);
 
     for object in &night.objects {
+        if object.kind == Kind::Body(Body::Sun) && layers.sun {
+            match corona::seen(object, night, &camera) {
+                Ok(Corona::Disc(disc)) => {
+                    ledger.draw("corona");
+                    plan.discs.push(*disc);
+                }
+                Ok(Corona::Point(light)) => {
+                    match lay_point(&camera, object.apparent, light, &mut plan.splats) {
+                        true => ledger.draw("corona"),
+                        false => ledger.skip("corona", OUT_OF_VIEW),
+                    }
+                }
+                Err(reason) => ledger.skip("corona", reason),
+            }
+        }
         let (layer, wanted) = layer_of(object, layers);
         let visible = visible(object, layers, wanted, night, &plan);
         if let Err(reason) = visible {
@@ -157,7 +173,7 @@ fn lay_sky(
     }
     if !layers.ground {
         below.fill(Xyzv::BLACK);
-        for source in [&mut sky.sun, &mut sky.moon].into_iter().flatten() {
+        for source in [&mut sky.sun, &mut sky.sun_left, &mut sky.moon].into_iter().flatten() {
             source.view.blacken_ground();
         }
     }

@@ -1,6 +1,9 @@
 //! The light of the sky as tables, from the solved air and what shines into it.
 
+use glam::DVec3;
+
 use crate::air::Atmosphere;
+use crate::air::scattering::shaded::Shares;
 use crate::air::scattering::{
     Matrix, Quality, SKY_NODES_NM, SUMS, ScatteringError, ScatteringTables, SkyRays, SkyShape,
     SpectralSums, horizon, reconstruction_matrix,
@@ -8,7 +11,9 @@ use crate::air::scattering::{
 use crate::background::{Background, Interrupt};
 use crate::frame::{Dir, Horizon};
 use crate::light::diffuse::NightSky;
+use crate::light::moon_shadow::MoonShadow;
 use crate::light::night::Night;
+use crate::light::solar_eclipse::CoveredSun;
 use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
 use crate::store::Store;
 use crate::units::{Angle, Xyzv};
@@ -22,6 +27,10 @@ pub const SUN_SKY_FLOOR: Angle = Angle::from_deg(-22.0);
 pub const MOON_SKY_FLOOR: Angle = Angle::from_deg(-10.0);
 /// Above this altitude of the Sun the light of the Moon is nowhere over 0.2 % of the Sun's.
 pub const MOON_SKY_SUN_LIMIT: Angle = Angle::from_deg(-1.0);
+
+/// While more than this share of the Sun is left, at 550 nm, its light is as faint in all of the air; when
+/// less than the second is left, each part of the air has its own; between them one turns into the other.
+const SHADOWED: [f64; 2] = [0.30, 0.20];
 
 /// Whether a source lights the sky, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +124,37 @@ impl SolvedAir {
         SourceSky { azimuth: source.azimuth(), view: seen.refined(SKY_SHAPE) }
     }
 
+    /// The same for a Sun that the Moon covers: the two sides of the sky, clockwise from the Sun and the
+    /// other way. Given the irradiance of the whole Sun.
+    pub fn eclipsed_sky(
+        &self,
+        night: &Night,
+        covered: &CoveredSun,
+        whole: &Spectrum,
+    ) -> Option<[SourceSky; 2]> {
+        let sun = night.sky.sun.dir;
+        let left_here = covered.visible();
+        let [begins, full] = SHADOWED;
+        let alike = ((left_here.at_nm(550.0) - full) / (begins - full)).clamp(0.0, 1.0);
+        let shadow = MoonShadow::of(&night.sky, SKY_NODES_NM);
+        let (sin, cos) = sun.azimuth().sin_cos();
+        let (ahead, clockwise) = (DVec3::new(sin, cos, 0.0), DVec3::new(cos, -sin, 0.0));
+        let eye = DVec3::Z * (self.height_m / 1000.0);
+        let left_at =
+            |at: DVec3| shadow.left_at(ahead * at.x + clockwise * at.y + DVec3::Z * at.z - eye);
+        let cos_zenith = sun.altitude().sin();
+        let view = self.tables.sky_view(&self.rays, cos_zenith);
+        let eye_km = self.air.eye_km(self.height_m);
+        let mut shading = self.tables.shading(&view, eye_km, cos_zenith, &left_at)?;
+        let even: Shares = SKY_NODES_NM.map(|nm| left_here.at_nm(nm));
+        shading.towards(&even, alike * alike * (3.0 - 2.0 * alike));
+        let sums = self.sums(whole);
+        Some([0, 1].map(|side| SourceSky {
+            azimuth: sun.azimuth(),
+            view: shading.of(&view, side).seen_by(&sums).refined(SKY_SHAPE),
+        }))
+    }
+
     /// What X, Y, Z and V make of a spectrum of light from a source, given at the nodes.
     pub fn sums(&self, irradiance: &Spectrum) -> SpectralSums {
         let weights: Vec<[f64; SUMS]> = (0..LEN)
@@ -184,6 +224,14 @@ pub fn sky_plan(
             let (air, from) = kept.of(&night.air, height_m)?;
             origin.get_or_insert(from);
             *lit = Some(air.sky(state.dir, &night.irradiance(state)));
+        }
+    }
+    let deep = night.eclipse.sun.filter(|sun| sun.visible().at_nm(550.0) < SHADOWED[0]);
+    if let (true, Some(covered)) = (with_sun, deep) {
+        let (air, _) = kept.of(&night.air, height_m)?;
+        let whole = night.irradiance_without_eclipse(&night.sky.sun);
+        if let Some([clockwise, other]) = air.eclipsed_sky(night, &covered, &whole) {
+            (sky.sun, sky.sun_left) = (Some(clockwise), Some(other));
         }
     }
     sky.dark = dark_sky(night, sky.horizon)?;

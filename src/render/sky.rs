@@ -135,7 +135,7 @@ impl SkyPass {
 impl Tables {
     fn new(gpu: &Gpu, sky: &SkyPlan, pixel_rad: f64) -> Tables {
         let uniform = SkyUniform::of(sky, pixel_rad);
-        let phase = [&sky.sun, &sky.moon].into_iter().flatten().find_map(|s| s.view.phase.as_ref());
+        let phase = sky.sources().into_iter().flatten().find_map(|(s, _)| s.view.phase.as_ref());
         // A binding cannot be empty; without haze nothing reads it.
         let phase = phase.map_or(&[0.0f32; 2][..], |phase| phase.values());
         let storage = |label, bytes| gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE);
@@ -151,8 +151,8 @@ impl Tables {
 fn table(sky: &SkyPlan) -> Vec<[f32; 4]> {
     let of_source = 2 * SKY_SHAPE.nodes();
     let mut table = vec![[0.0; 4]; 2 * of_source + SKY_SHAPE.rows()];
-    for (number, source) in [&sky.sun, &sky.moon].into_iter().enumerate() {
-        let Some(source) = source else { continue };
+    for (number, source) in sky.sources().into_iter().enumerate() {
+        let Some((source, _)) = source else { continue };
         let texels = &mut table[number * of_source..][..of_source];
         let smooth = source.view.smooth.chunks_exact(4);
         for (texel, light) in texels.iter_mut().step_by(2).zip(smooth) {

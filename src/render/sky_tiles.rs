@@ -119,10 +119,11 @@ struct Cutter<'a> {
 
 impl Cutter<'_> {
     fn new<'a>(sky: &'a SkyPlan, camera: &'a Camera) -> Cutter<'a> {
-        let sources = [&sky.sun, &sky.moon]
+        let sources = sky
+            .sources()
             .into_iter()
             .flatten()
-            .map(|s| Dir::from_azimuth_altitude(s.azimuth, s.view.source_elevation))
+            .map(|(s, _)| Dir::from_azimuth_altitude(s.azimuth, s.view.source_elevation))
             .collect();
         Cutter { sky, camera, apparent_from_view: camera.view_from_apparent().inverse(), sources }
     }

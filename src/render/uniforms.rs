@@ -19,7 +19,7 @@ use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
 use crate::plan::planet::PlanetDisc;
-use crate::plan::{SKY_SHAPE, SkyPlan, SourceSky};
+use crate::plan::{SKY_SHAPE, Side, SkyPlan, SourceSky};
 use crate::units::Angle;
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
@@ -162,16 +162,23 @@ impl CameraUniform {
 impl SkyUniform {
     /// Given the height of a pixel, radians.
     pub fn of(sky: &SkyPlan, pixel_rad: f64) -> Self {
-        let sources = [&sky.sun, &sky.moon];
+        let sources = sky.sources();
         let dir = |source: &SourceSky| -> [f32; 4] {
             let to_source: Dir<Apparent> =
                 Dir::from_azimuth_altitude(source.azimuth, source.view.source_elevation);
             direction(to_source, source.azimuth.rad())
         };
-        let shines = |source: &SourceSky| if source.view.haze.is_empty() { 1 } else { 2 };
+        let shines = |source: &SourceSky, side: Side| {
+            let of_side = match side {
+                Side::Both => 0,
+                Side::Clockwise => 4,
+                Side::Other => 8,
+            };
+            of_side + if source.view.haze.is_empty() { 1 } else { 2 }
+        };
         SkyUniform {
-            sources: sources.map(|s| s.as_ref().map_or([0.0; 4], dir)),
-            shines: sources.map(|s| s.as_ref().map_or(0, shines)),
+            sources: sources.map(|s| s.map_or([0.0; 4], |(s, _)| dir(s))),
+            shines: sources.map(|s| s.map_or(0, |(s, side)| shines(s, side))),
             azimuths: SKY_SHAPE.azimuths as u32,
             above: SKY_SHAPE.above as u32,
             below: SKY_SHAPE.below as u32,
@@ -265,8 +272,9 @@ impl DiscUniform {
             SurfaceLaw::Sun { .. } => (0.0, 0),
             SurfaceLaw::Moon { map } => (1.0, map.width),
             SurfaceLaw::Lambert => (2.0, 0),
+            SurfaceLaw::Corona => (3.0, 0),
             // In `shaders/planet.wgsl`.
-            SurfaceLaw::Planet(_) => (3.0, 0),
+            SurfaceLaw::Planet(_) => (4.0, 0),
         };
         let horizon_from_disc = DMat3::from_cols_array_2d(&disc_axes(shape.centre).map(Into::into));
         let in_disc = |dir: Dir<Horizon>| horizon_from_disc.transpose() * dir.vector();

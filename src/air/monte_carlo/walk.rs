@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::air::scattering::lanes::LANES;
+use crate::air::scattering::shaded::LeftAt;
 
 use super::directions::{Lobe, from_ground, turned};
 use super::matter::{Light, Matter};
@@ -93,6 +94,20 @@ impl LitTable {
     }
 }
 
+/// What is left of the source at a place, by wavelength: see [`super::MonteCarlo::radiance_in_shade`].
+#[derive(Clone, Copy)]
+pub(super) struct Shade<'a> {
+    pub left_at: &'a LeftAt<'a>,
+    /// The point at sea level from which places are counted, from the Earth's centre, kilometres.
+    pub origin: DVec3,
+}
+
+impl std::fmt::Debug for Shade<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.debug_struct("Shade").field("origin", &self.origin).finish_non_exhaustive()
+    }
+}
+
 /// The air as paths see it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scene<'a> {
@@ -100,6 +115,7 @@ pub(super) struct Scene<'a> {
     pub matter: &'a Matter,
     pub lit: &'a LitTable,
     pub source: Source,
+    pub shade: Option<Shade<'a>>,
 }
 
 impl Scene<'_> {
@@ -107,7 +123,12 @@ impl Scene<'_> {
     pub fn beam(&self, at: DVec3, dir: DVec3) -> Option<Light> {
         let r = at.length();
         let columns = self.shells.to_space(r, at.dot(dir) / r)?;
-        Some(self.matter.transmittance(&columns))
+        let mut beam = self.matter.transmittance(&columns);
+        if let Some(shade) = self.shade {
+            let left = (shade.left_at)(at - shade.origin);
+            beam.iter_mut().zip(left).for_each(|(beam, left)| *beam *= left);
+        }
+        Some(beam)
     }
 }
 
