@@ -21,20 +21,21 @@ struct MeshBand {
     last: Radians,
     rings: u32,
     sectors: u32,
-    // Whether its last ring is drawn out over the limb, behind all else.
+    // Whether its last ring is drawn out over the limb.
     is_skirt: u32,
 }
 
 // Only reckoned with: a branch that hung on it would have the software driver compile the shader anew.
 @group(0) @binding(0) var<uniform> globe: Globe;
 @group(0) @binding(1) var<storage, read> band: MeshBand;
-// The near side, stereographic: slopes of the ground along the two axes of the map, elevation in radii of the
-// Moon, reflectance at 566 nm.
+// The near side: slopes of the ground along its two axes, elevation in radii of the Moon, reflectance at
+// 566 nm.
 @group(0) @binding(2) var relief: texture_2d<f32>;
 // The near side: reflectances at 643 and 415 nm over that at 566 nm, less the least.
 @group(0) @binding(3) var colours: texture_2d<f32>;
 @group(0) @binding(4) var across_near_side: sampler;
-// The share of the Sun's disc that is seen, by azimuth around the subsolar point and angle from it.
+// The share of the Sun's disc that is seen, by quick turn around the subsolar point and cosine of the angle
+// from it.
 @group(0) @binding(5) var shadows: texture_2d<f32>;
 // By colour, what the ground scatters once and often over its reflectance, west to east and north to south.
 @group(0) @binding(6) var once: texture_2d<f32>;
@@ -45,9 +46,14 @@ struct MeshBand {
 // What the Earth leaves of the Sun's light, by colour, from the axis of its shadow to the rim.
 @group(0) @binding(10) var umbra: texture_2d<f32>;
 
-// How far the skirt is drawn out, and its depth.
+// What a part of the ground may have: sunlight, shadows, the shadow of the Earth. Said for each pipeline, as the
+// software driver reckons both sides of a branch.
+override SUN: bool;
+override SHADOWS: bool;
+override ECLIPSE: bool;
+
+// How far the skirt is drawn out.
 const SKIRT: f32 = 1.03;
-const BEHIND: f32 = 0.999;
 // Of the angle between the ground and the sight.
 const LEAST_COSINE: f32 = 0.05;
 
@@ -69,7 +75,7 @@ fn on_map(normal: vec3f) -> vec2f {
 
 // Given a direction in the Moon's own axes, its place on the maps of the near side.
 fn on_near_side(normal: vec3f) -> vec2f {
-    return 0.5 + vec2f(normal.y, -normal.z) * (0.5 / (MAP_EDGE * (1.0 + normal.x)));
+    return 0.5 + vec2f(normal.y, -normal.z) * (0.5 / MAP_EDGE * sqrt(2.0 / (1.0 + normal.x)));
 }
 
 // Given the number of a corner, ring by ring.
@@ -91,38 +97,25 @@ fn vertex(@builtin(vertex_index) index: u32) -> Ground {
     let is_skirt = band.is_skirt == 1u;
     let reach = select(1.0, SKIRT, is_skirt && index / corners == band.rings);
     let seen = place.xy * (distance / away * reach / EXTENT);
-    // From in front of the nearest mountain to behind the centre.
-    let depth = select((away - distance + 1.02) / 1.2, BEHIND, is_skirt);
-    return Ground(vec4f(seen, depth, 1.0), normal, single, multiple);
+    return Ground(vec4f(seen, 0.0, 1.0), normal, single, multiple);
 }
 
 // The share of the Sun that is seen from a point of the globe.
 fn sunlit(in_sun: vec3f) -> f32 {
-    if in_sun.z >= COS_FIRST_SHADOW {
-        return 1.0;
-    }
-    if in_sun.z <= COS_LAST_SHADOW {
-        return 0.0;
-    }
-    let angle = acos(in_sun.z);
     let size = vec2f(textureDimensions(shadows));
-    let turn = atan2(in_sun.y, in_sun.x) / (2.0 * PI);
-    let row = (angle - FIRST_SHADOW) / (LAST_SHADOW - FIRST_SHADOW);
+    let row = (in_sun.z - COS_FIRST_SHADOW) / (COS_LAST_SHADOW - COS_FIRST_SHADOW);
     // Values belong to the nodes: the middles of the texels.
-    let at = vec2f(fract(turn) + 0.5 / size.x, (row * (size.y - 1.0) + 0.5) / size.y);
+    let at = vec2f(quick_turn(in_sun.xy) + 0.5 / size.x, (row * (size.y - 1.0) + 0.5) / size.y);
     return textureSampleLevel(shadows, around, at, 0.0).x;
 }
 
 // What the Earth leaves of the Sun's light at a point of the globe, by colour.
 fn beside_earth(outward: vec3f) -> vec3f {
-    let size = f32(textureDimensions(umbra).x);
-    if size == 1.0 {
-        return vec3f(1.0);
-    }
     let to_earth = globe.earth.xyz - outward;
     let away = length(to_earth);
     // A point nearer to the Earth sees it larger.
     let chord = length(normalize(globe.sun.xyz - outward) - to_earth / away) * (away / globe.earth.w);
+    let size = f32(textureDimensions(umbra).x);
     let at = min(chord / globe.sun.w, 1.0) * ((size - 1.0) / size) + 0.5 / size;
     return textureSampleLevel(umbra, across_near_side, vec2f(at, 0.5), 0.0).xyz;
 }
@@ -135,17 +128,8 @@ fn law(ground: Ground, cos_incidence: f32, cos_emission: f32) -> vec3f {
     return ground.once * lit.x + ground.often * lit.y;
 }
 
-@fragment
-fn fragment(ground: Ground) -> @location(0) vec4f {
-    let outward = normalize(ground.normal);
-    let at = on_near_side(outward);
-    let soil = textureSampleLevel(relief, across_near_side, at, 0.0);
-    // The Earth stands behind the observer: its light comes back the way it went.
-    let earthlit = 0.5 * soil.w;
-    let sun = sunlit(outward * globe.body_from_sun);
-    if sun == 0.0 {
-        return vec4f(vec3f(0.0), earthlit);
-    }
+// The sunlight that a place of the globe sends, by colour.
+fn sunlight(ground: Ground, outward: vec3f, soil: vec4f, at: vec2f) -> vec3f {
     // Along the axes of the map, see src/plan/globe/near_side.rs.
     let bent = outward.yz / (1.0 + outward.x);
     let along = vec3f(-outward.y, 1.0 - bent.x * outward.y, -bent.x * outward.z);
@@ -155,13 +139,29 @@ fn fragment(ground: Ground) -> @location(0) vec4f {
     let to_observer = normalize(globe.observer.xyz - outward);
     let hidden = max(LEAST_COSINE - dot(sloping, to_observer), 0.0);
     let normal = normalize(sloping + to_observer * hidden);
-    let cos_incidence = dot(normal, globe.body_from_sun[2]);
-    if cos_incidence <= 0.0 {
-        return vec4f(vec3f(0.0), earthlit);
-    }
+    let cos_incidence = max(dot(normal, globe.body_from_sun[2]), 0.0);
     let cos_emission = max(dot(normal, to_observer), LEAST_COSINE);
     let ratios = textureSampleLevel(colours, across_near_side, at, 0.0).xy + vec2f(LEAST_RED, LEAST_BLUE);
     let reflectance = soil.w * vec3f(ratios.x, 1.0, ratios.y);
-    let light = beside_earth(outward) * sun;
-    return vec4f(reflectance * law(ground, cos_incidence, cos_emission) * light, earthlit);
+    var light = reflectance * law(ground, cos_incidence, cos_emission);
+    if SHADOWS {
+        light *= sunlit(outward * globe.body_from_sun);
+    }
+    if ECLIPSE {
+        light *= beside_earth(outward);
+    }
+    return light;
+}
+
+@fragment
+fn fragment(ground: Ground) -> @location(0) vec4f {
+    let outward = normalize(ground.normal);
+    let at = on_near_side(outward);
+    let soil = textureSampleLevel(relief, across_near_side, at, 0.0);
+    // The Earth stands behind the observer: its light comes back the way it went.
+    var light = vec4f(vec3f(0.0), 0.5 * soil.w);
+    if SUN {
+        light = vec4f(sunlight(ground, outward, soil, at), light.w);
+    }
+    return light;
 }

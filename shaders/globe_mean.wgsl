@@ -31,6 +31,16 @@ fn gathered(thread: u32, part: vec4f) -> vec4f {
     return parts[0];
 }
 
+// The sum of what is within the outline, from one pixel to another of a row.
+fn edge_sum(ends: vec2u, y: u32, up: f32, pixel: f32) -> vec4f {
+    var part = vec4f(0.0);
+    for (var x = ends.x; x < ends.y; x++) {
+        let at = vec2f(pixel * (f32(x) + 0.5) - EXTENT, up);
+        part += within_limb(outline, around, at, pixel) * textureLoad(picture, vec2u(x, y), 0);
+    }
+    return part;
+}
+
 @compute @workgroup_size(64)
 fn sum_tile(
     @builtin(workgroup_id) tile: vec3u,
@@ -38,15 +48,21 @@ fn sum_tile(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let size = textureDimensions(picture);
-    let pixel = 2.0 / vec2f(size);
+    let pixel = 2.0 * EXTENT / f32(size.x);
     let y = tile.y * TILE + thread;
     var part = vec4f(0.0);
     if y < size.y {
         let end = min(tile.x * TILE + TILE, size.x);
-        for (var x = tile.x * TILE; x < end; x++) {
-            let at = EXTENT * ((vec2f(f32(x), f32(y)) + 0.5) * pixel - 1.0);
-            let share = within_limb(outline, around, vec2f(at.x, -at.y), EXTENT * pixel.x);
-            part += share * textureLoad(picture, vec2u(x, y), 0);
+        let up = EXTENT - pixel * (f32(y) + 0.5);
+        // From here to there no pixel is near the limb.
+        let half = sqrt(max(INSIDE * INSIDE - up * up, 0.0)) / pixel - 1.0;
+        let middle = 0.5 * f32(size.x);
+        let first = tile.x * TILE;
+        let inside = clamp(u32(max(middle - half, 0.0)), first, end);
+        let outside = clamp(u32(max(middle + half, 0.0)), inside, end);
+        part += edge_sum(vec2u(first, inside), y, up, pixel) + edge_sum(vec2u(outside, end), y, up, pixel);
+        for (var x = inside; x < outside; x++) {
+            part += textureLoad(picture, vec2u(x, y), 0);
         }
     }
     let all = gathered(thread, part);

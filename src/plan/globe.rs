@@ -18,6 +18,7 @@ pub mod limb;
 pub mod mesh;
 pub mod near_side;
 pub mod shadows;
+pub mod turn;
 pub mod umbra;
 
 use std::sync::Arc;

@@ -1,24 +1,50 @@
 //! The Moon's globe on a picture of its own: maps kept on the GPU, a mesh, its mean light.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::plan::globe::{EXTENT, Globe};
 
 use super::globe_maps::{
     NearSideMaps, ground_textures, outline_texture, shadows_texture, umbra_texture,
 };
-use super::gpu::Gpu;
+use super::gpu::{Binding, Gpu};
 use super::shaders;
 use super::target::Target;
 use super::uniforms::{GlobeUniform, MeanUniform, MeshBandUniform};
 
 const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Pixels that a group sums along each axis.
 const TILE_PX: u32 = 64;
 
+/// What lights a part of the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Light {
+    Earth,
+    LowSun,
+    HighSun,
+    /// The Sun beside the Earth.
+    Eclipsed,
+}
+
+/// What `shaders/globe.wgsl` binds.
+const BINDINGS: [Binding; 11] = [
+    Binding::Uniform,
+    Binding::Storage,
+    Binding::Texture,
+    Binding::Texture,
+    Binding::Sampler,
+    Binding::Texture,
+    Binding::Texture,
+    Binding::Texture,
+    Binding::Sampler,
+    Binding::Texture,
+    Binding::Texture,
+];
+
 pub struct GlobePass {
-    mesh: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    /// By what lights the ground, each made when it is first drawn.
+    pipelines: [OnceLock<wgpu::RenderPipeline>; 4],
     sum_tile: wgpu::ComputePipeline,
     sum_all: wgpu::ComputePipeline,
     across: wgpu::Sampler,
@@ -46,18 +72,27 @@ impl GlobePass {
     pub fn new(gpu: &Gpu) -> GlobePass {
         let mean = shaders::assembled("globe-mean");
         GlobePass {
-            mesh: gpu.picture_pipeline(
-                "globe",
-                &shaders::assembled("globe"),
-                PICTURE_FORMAT,
-                DEPTH_FORMAT,
-            ),
+            layout: gpu.layout(&BINDINGS),
+            pipelines: Default::default(),
             sum_tile: gpu.compute_pipeline("sum_tile", &mean),
             sum_all: gpu.compute_pipeline("sum_all", &mean),
             across: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
             around: gpu.linear_sampler(wgpu::AddressMode::Repeat),
             last: Mutex::new(None),
         }
+    }
+
+    fn pipeline(&self, gpu: &Gpu, light: Light) -> &wgpu::RenderPipeline {
+        self.pipelines[light as usize].get_or_init(|| {
+            let source = shaders::assembled("globe");
+            let has = |name, yes| (name, f64::from(u8::from(yes)));
+            let constants = [
+                has("SUN", light != Light::Earth),
+                has("SHADOWS", matches!(light, Light::LowSun | Light::Eclipsed)),
+                has("ECLIPSE", light == Light::Eclipsed),
+            ];
+            gpu.picture_pipeline("globe", &source, &self.layout, &constants, PICTURE_FORMAT)
+        })
     }
 
     /// The picture of a globe; drawn unless it was the last one.
@@ -83,50 +118,54 @@ impl GlobePass {
     fn draw(&self, frame: &mut Target, globe: &Globe, maps: &NearSideMaps) -> GlobePicture {
         let gpu = frame.gpu;
         let px = globe.view.picture_px;
-        let texture = |label, format, usage| {
-            let size = wgpu::Extent3d { width: px, height: px, depth_or_array_layers: 1 };
-            gpu.texture(label, size, format, usage | wgpu::TextureUsages::RENDER_ATTACHMENT)
-        };
-        let binding = wgpu::TextureUsages::TEXTURE_BINDING;
-        let picture = texture("globe", PICTURE_FORMAT, binding).create_view(&Default::default());
-        let depth = texture("depth of the globe", DEPTH_FORMAT, wgpu::TextureUsages::empty());
+        let size = wgpu::Extent3d { width: px, height: px, depth_or_array_layers: 1 };
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let picture = gpu.texture("globe", size, PICTURE_FORMAT, usage);
+        let picture = picture.create_view(&Default::default());
         let uniform = GlobeUniform::of(globe);
         let usage = wgpu::BufferUsages::UNIFORM;
         let uniform = gpu.buffer("globe", bytemuck::bytes_of(&uniform), usage);
         let [once, often, by_directions] = ground_textures(gpu, &globe.ground);
         let shadows = shadows_texture(gpu, &globe.shadows);
         let umbra = umbra_texture(gpu, globe.view.shadow.as_ref());
-        let bands = globe.mesh().map(|band| {
+        let mut draws = Vec::new();
+        for (band, parts) in globe.parted_mesh() {
             let buffer = storage(gpu, "band", bytemuck::bytes_of(&MeshBandUniform::of(&band)));
-            let group = bind(
-                gpu,
-                &self.mesh.get_bind_group_layout(0),
-                &[
-                    uniform.as_entire_binding(),
-                    buffer.as_entire_binding(),
-                    wgpu::BindingResource::TextureView(&maps.relief),
-                    wgpu::BindingResource::TextureView(&maps.colours),
-                    wgpu::BindingResource::Sampler(&self.across),
-                    wgpu::BindingResource::TextureView(&shadows),
-                    wgpu::BindingResource::TextureView(&once),
-                    wgpu::BindingResource::TextureView(&often),
-                    wgpu::BindingResource::Sampler(&self.around),
-                    wgpu::BindingResource::TextureView(&by_directions),
-                    wgpu::BindingResource::TextureView(&umbra),
-                ],
-            );
-            let indices = lattice_indices(band.sectors, band.rings);
-            let count = indices.len() as u32;
-            let usage = wgpu::BufferUsages::INDEX;
-            (group, gpu.buffer("mesh", bytemuck::cast_slice(&indices), usage), count)
-        });
-        let depth = depth.create_view(&Default::default());
-        frame.picture_pass("globe", &picture, &depth, |pass| {
-            pass.set_pipeline(&self.mesh);
-            for (group, mesh, count) in &bands {
+            let resources = [
+                uniform.as_entire_binding(),
+                buffer.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&maps.relief),
+                wgpu::BindingResource::TextureView(&maps.colours),
+                wgpu::BindingResource::Sampler(&self.across),
+                wgpu::BindingResource::TextureView(&shadows),
+                wgpu::BindingResource::TextureView(&once),
+                wgpu::BindingResource::TextureView(&often),
+                wgpu::BindingResource::Sampler(&self.around),
+                wgpu::BindingResource::TextureView(&by_directions),
+                wgpu::BindingResource::TextureView(&umbra),
+            ];
+            let resources: Vec<_> = (0..).zip(resources).collect();
+            let group = gpu.bind_mixed(&self.layout, &resources);
+            let sun =
+                |light: Light| if globe.view.shadow.is_some() { Light::Eclipsed } else { light };
+            for (light, part) in [
+                (Light::Earth, parts.dark),
+                (sun(Light::LowSun), parts.low_sun),
+                (sun(Light::HighSun), parts.high_sun),
+            ] {
+                if !part.is_empty() {
+                    let usage = wgpu::BufferUsages::INDEX;
+                    let corners = gpu.buffer("mesh", bytemuck::cast_slice(&part), usage);
+                    draws.push((self.pipeline(gpu, light), group.clone(), corners, part.len()));
+                }
+            }
+        }
+        frame.picture_pass("globe", &picture, |pass| {
+            for (pipeline, group, corners, count) in &draws {
+                pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, group, &[]);
-                pass.set_index_buffer(mesh.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..*count, 0, 0..1);
+                pass.set_index_buffer(corners.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..*count as u32, 0, 0..1);
             }
         });
         let outline = outline_texture(gpu, &globe.limb);
@@ -191,12 +230,4 @@ pub fn lattice_indices(columns: u32, rows: u32) -> Vec<u32> {
 
 fn storage(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
     gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE)
-}
-
-fn bind(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    resources: &[wgpu::BindingResource],
-) -> wgpu::BindGroup {
-    gpu.bind_mixed(layout, &(0..).zip(resources.iter().cloned()).collect::<Vec<_>>())
 }

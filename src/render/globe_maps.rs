@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::plan::globe::ground::Ground;
 use crate::plan::globe::limb::Limb;
-use crate::plan::globe::near_side::{EDGE, NearSide};
+use crate::plan::globe::near_side::{EDGE, NearSide, normal_at};
 use crate::plan::globe::shadows::Shadows;
 use crate::plan::globe::umbra::UmbraTable;
 
@@ -40,7 +40,7 @@ fn relief_texture(
     albedo: &NearSide<[f32; 3]>,
 ) -> wgpu::TextureView {
     let size = relief.size;
-    let cell = (2.0 * EDGE / size as f64) as f32;
+    let cell = 2.0 * EDGE / size as f64;
     let mut texels = vec![[0u16; 4]; size * size];
     texels.par_chunks_mut(size).enumerate().for_each(|(row, texels)| {
         let height = |row: usize, column: usize| relief.values[row * size + column];
@@ -50,12 +50,17 @@ fn relief_texture(
             let (left, right) = (column.saturating_sub(1), (column + 1).min(size - 1));
             let x = relief.middle(column);
             let elevation = height(row, column);
-            // A unit of the plane is 2 / (1 + x^2 + y^2) radii of the Moon.
-            let per_radius = 0.5 * (1.0 + x * x + y * y) as f32 / (cell * (1.0 + elevation));
             let along = (height(row, right) - height(row, left)) / (right - left) as f32;
             let up = (height(above, column) - height(below, column)) / (below - above) as f32;
+            // How the place on the map moves with a step along the axes: see `NearSide`.
+            let n = normal_at(x, y);
+            let k = (1.0 + n.x).recip();
+            let scale = (2.0 * k).sqrt() / (cell * (1.0 + f64::from(elevation)));
+            let aslant = (-0.5 * scale * k * n.y * n.z) as f32;
+            let ahead = [n.y, n.z].map(|n| (scale * (1.0 - 0.5 * k * n * n)) as f32);
+            let slopes = [along * ahead[0] + up * aslant, along * aslant + up * ahead[1]];
             let [_, reflectance, _] = albedo.on_plane(x, y);
-            let values = [along * per_radius, up * per_radius, elevation, reflectance];
+            let values = [slopes[0], slopes[1], elevation, reflectance];
             *texel = values.map(|value| f16::from_f32(value).to_bits());
         }
     });

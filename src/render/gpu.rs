@@ -34,6 +34,38 @@ pub struct PassTime {
     pub milliseconds: f64,
 }
 
+/// What a shader binds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Binding {
+    Uniform,
+    /// Read only.
+    Storage,
+    /// Two-dimensional, read with a [`Binding::Sampler`].
+    Texture,
+    /// Straight between texels.
+    Sampler,
+}
+
+impl Binding {
+    fn kind(self) -> wgpu::BindingType {
+        let buffer = |ty| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        match self {
+            Binding::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+            Binding::Storage => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+            Binding::Texture => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            Binding::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        }
+    }
+}
+
 /// The device and its queue.
 pub struct Gpu {
     pub device: wgpu::Device,
@@ -234,37 +266,54 @@ impl Gpu {
         self.any_pipeline(label, &module, [&vertex, &fragment], topology, buffers, None)
     }
 
-    /// A pipeline that draws triangles on a picture of its own, the nearest in front.
+    /// A layout of bindings that several pipelines share, for vertices and fragments.
+    pub fn layout(&self, bindings: &[Binding]) -> wgpu::BindGroupLayout {
+        let entry = |(number, binding): (usize, &Binding)| wgpu::BindGroupLayoutEntry {
+            binding: number as u32,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: binding.kind(),
+            count: None,
+        };
+        self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &bindings.iter().enumerate().map(entry).collect::<Vec<_>>(),
+        })
+    }
+
+    /// A pipeline that draws triangles on a picture of its own, the last in front, with values for the
+    /// constants that its shader leaves open.
     pub fn picture_pipeline(
         &self,
         label: &str,
         source: &str,
+        bindings: &wgpu::BindGroupLayout,
+        constants: &[(&str, f64)],
         format: wgpu::TextureFormat,
-        depth: wgpu::TextureFormat,
     ) -> wgpu::RenderPipeline {
         let module = self.module(label, source);
+        let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &[Some(bindings)],
+            ..Default::default()
+        });
+        let compilation_options =
+            wgpu::PipelineCompilationOptions { constants, ..Default::default() };
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(label),
-            layout: None,
+            layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some("vertex"),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options.clone(),
                 buffers: &[],
             },
             primitive: Default::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: depth,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
+            depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,
                 entry_point: Some("fragment"),
-                compilation_options: Default::default(),
+                compilation_options,
                 targets: &[Some(format.into())],
             }),
             multiview_mask: None,

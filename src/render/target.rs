@@ -90,7 +90,6 @@ impl<'g> Target<'g> {
         &mut self,
         label: &str,
         picture: &wgpu::TextureView,
-        depth: &wgpu::TextureView,
         draw: impl FnOnce(&mut wgpu::RenderPass),
     ) {
         let number = self.passes.len() as u32;
@@ -105,14 +104,6 @@ impl<'g> Target<'g> {
                     store: wgpu::StoreOp::Store,
                 },
             })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
             timestamp_writes: stamps(self.stamps.as_ref(), number),
             ..Default::default()
         });

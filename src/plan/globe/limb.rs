@@ -5,23 +5,24 @@
 //! behind. The mesh that is drawn reaches over it; what is beyond is cut off, a pixel by the part of it
 //! that is within.
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use rayon::prelude::*;
 
-use super::near_side::NearSide;
+use super::near_side::{EDGE, NearSide};
+use super::turn::towards;
 use crate::units::Angle;
 
 /// The limb by direction from the middle of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limb {
-    /// Distance from the middle in radii of the Moon as the observer sees them, less one: a turn in even
-    /// steps, from the right through up.
+    /// Distance from the middle in radii of the Moon as the observer sees them, less one: a turn from the right
+    /// through up, in even steps of [the quick turn](super::turn).
     pub over_mean: Vec<f64>,
 }
 
 impl Limb {
     /// As fine as the finest relief.
-    const DIRECTIONS: usize = 2880;
+    const DIRECTIONS: usize = 3600;
     /// Where ground is looked for that may be the limb: the highest is seen from 6 degrees behind.
     const FIRST: Angle = Angle::from_deg(84.0);
     const LAST: Angle = Angle::from_deg(96.0);
@@ -29,7 +30,7 @@ impl Limb {
     /// For an observer at a distance in radii of the Moon, given the axes of the picture in the Moon's own.
     pub fn of(relief: &NearSide<f32>, body_from_picture: DMat3, distance: f64) -> Limb {
         // Rings a cell of the map apart.
-        let step_rad = 2.0 / (relief.size as f64 / (2.0 * super::near_side::EDGE));
+        let step_rad = 2.0 * EDGE / relief.size as f64;
         let rings = ((Limb::LAST - Limb::FIRST).rad() / step_rad).ceil() as usize;
         let rings: Vec<(f64, f64)> = (0..=rings)
             .map(|ring| {
@@ -38,9 +39,8 @@ impl Limb {
             })
             .collect();
         let at = |direction: usize| {
-            let turn = std::f64::consts::TAU * direction as f64 / Limb::DIRECTIONS as f64;
-            let (up, right) = turn.sin_cos();
-            let outwards = body_from_picture * DVec3::new(right, up, 0.0);
+            let towards = towards(direction as f64 / Limb::DIRECTIONS as f64);
+            let outwards = body_from_picture * towards.extend(0.0);
             let seen = |&(sin, cos): &(f64, f64)| {
                 let normal = outwards * sin - body_from_picture.z_axis * cos;
                 let radius = 1.0 + relief.at(normal).map_or(0.0, f64::from);
@@ -55,6 +55,9 @@ impl Limb {
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::super::turn;
     use super::*;
 
     const FACING: DMat3 = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
@@ -81,7 +84,10 @@ mod tests {
             })
             .collect();
         let limb = Limb::of(&NearSide::of(&heights, 2880, 0), FACING, 220.0);
-        let at = |deg: f64| limb.over_mean[(deg * 8.0) as usize];
+        let at = |deg: f64| {
+            let share = turn::share(DVec2::from_angle(deg.to_radians()));
+            limb.over_mean[(share * Limb::DIRECTIONS as f64).round() as usize]
+        };
         // Its height, less what the bend of the globe hides.
         let expected = 1.0046 * 3f64.to_radians().cos() - 1.0;
         assert!((at(10.0) - expected).abs() < 3e-4, "{} {expected}", at(10.0));

@@ -14,6 +14,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::near_side::NearSide;
+use super::turn::towards;
 use crate::units::Angle;
 
 /// The part of the Sun's disc that is seen, on circles around the subsolar point.
@@ -23,19 +24,19 @@ pub struct Shadows {
     pub body_from_sun: DMat3,
     pub rows: usize,
     pub columns: usize,
-    /// By angle from the subsolar point, [`Shadows::FIRST`] to [`Shadows::LAST`], then by azimuth around it
-    /// from the first axis to the second, a turn; 0 to 1.
+    /// By the cosine of the angle from the subsolar point, that of [`Shadows::FIRST`] to that of
+    /// [`Shadows::LAST`], then by [quick turn](super::turn) around it from the first axis to the second; 0 to 1.
     pub sunlit: Vec<f32>,
 }
 
 impl Shadows {
-    pub const FIRST: Angle = Angle::from_deg(52.0);
+    pub const FIRST: Angle = Angle::from_deg(58.0);
     pub const LAST: Angle = Angle::from_deg(97.0);
     /// At their finest.
-    const ROWS: usize = 361;
-    const COLUMNS: usize = 2880;
-    /// How far before the first row ridges are looked for.
-    const BEFORE: Angle = Angle::from_deg(12.0);
+    const ROWS: usize = 321;
+    const COLUMNS: usize = 3600;
+    /// Where ridges are looked for first.
+    const BEFORE: Angle = Angle::from_deg(40.0);
 
     /// For the Sun in a direction in the Moon's own axes, of a given angular radius, as fine as a picture
     /// of the disc with a radius of so many pixels needs them. Heights are in radii of the Moon.
@@ -50,15 +51,15 @@ impl Shadows {
         let (rows, columns) = ((Shadows::ROWS - 1) / coarser + 1, Shadows::COLUMNS / coarser);
         let across = to_sun.any_orthonormal_vector();
         let body_from_sun = DMat3::from_cols(across, to_sun.cross(across), to_sun);
-        let step = (Shadows::LAST - Shadows::FIRST) / (rows - 1) as f64;
-        let before = (Shadows::BEFORE.rad() / step.rad()).ceil() as usize;
-        let first = Shadows::FIRST - step * before as f64;
-        let angles: Vec<(f64, f64)> =
-            (0..rows + before).map(|row| (first + step * row as f64).sin_cos()).collect();
+        let step = (Shadows::LAST.cos() - Shadows::FIRST.cos()) / (rows - 1) as f64;
+        let before = ((Shadows::FIRST.cos() - Shadows::BEFORE.cos()) / step).ceil() as usize;
+        let angles: Vec<(f64, f64)> = (0..rows + before)
+            .map(|row| Shadows::FIRST.cos() + step * (row as f64 - before as f64))
+            .map(|cos| ((1.0 - cos * cos).sqrt(), cos))
+            .collect();
         let meridian = |column: usize| -> Vec<f32> {
-            let azimuth = std::f64::consts::TAU * column as f64 / columns as f64;
-            let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
-            let outwards = body_from_sun * DVec3::new(cos_azimuth, sin_azimuth, 0.0);
+            let towards = towards(column as f64 / columns as f64);
+            let outwards = body_from_sun * towards.extend(0.0);
             let mut ridges = Ridges::default();
             let sunlit = angles.iter().map(|&(sin, cos)| {
                 let Some(height) = relief.at(outwards * sin + to_sun * cos) else { return 1.0 };
@@ -131,11 +132,11 @@ mod tests {
         let normal =
             DVec3::new(longitude_deg.to_radians().cos(), longitude_deg.to_radians().sin(), 0.0);
         let in_sun = shadows.body_from_sun.transpose() * normal;
-        let angle = Angle::from_rad(in_sun.z.clamp(-1.0, 1.0).acos());
-        let share = (angle - Shadows::FIRST).rad() / (Shadows::LAST - Shadows::FIRST).rad();
-        let row = (share * (shadows.rows - 1) as f64).round() as usize;
-        let turn = in_sun.y.atan2(in_sun.x) / std::f64::consts::TAU;
-        let column = (turn.rem_euclid(1.0) * shadows.columns as f64).round() as usize;
+        let [first, last] = [Shadows::FIRST, Shadows::LAST].map(|angle| angle.cos());
+        let row = (in_sun.z - first) / (last - first) * (shadows.rows - 1) as f64;
+        let row = row.round() as usize;
+        let turn = super::super::turn::share(in_sun.truncate());
+        let column = (turn * shadows.columns as f64).round() as usize;
         shadows.sunlit[row * shadows.columns + column % shadows.columns]
     }
 
