@@ -79,33 +79,37 @@ fn mean_albedo(cells: &[[PhaseCell; 3]]) -> f64 {
     cells.iter().map(|cell| cell[1].w).sum::<f64>() / cells.len().max(1) as f64
 }
 
-/// Towards the poles the parameters of single places are noise, and beyond 70 degrees there are none:
-/// there all longitudes share the mean of those at 60 to 70 degrees.
+/// Latitudes between which single places give way to a mean, and those that the mean is of, degrees.
+const EVEN_DEG: [f64; 2] = [42.0, 56.0];
+const MEAN_DEG: [f64; 2] = [30.0, 42.0];
+
+/// From orbit the ground is seen at phase angles down to its latitude, and no smaller: towards the poles
+/// the surge of a place is not measured, and at 643 nm the parameters of places make it anything. There all
+/// longitudes share the mean of those at middle latitudes.
 fn evened_at_poles(
     mut cells: Vec<[PhaseCell; 3]>,
     (width, height): (usize, usize),
 ) -> Vec<[PhaseCell; 3]> {
-    const EVEN_DEG: [f64; 2] = [60.0, 70.0];
     let latitude_deg = |row: usize| 90.0 - 180.0 * (row as f64 + 0.5) / height as f64;
-    for north in [true, false] {
-        let is_of_cap = |row: usize| (latitude_deg(row) > 0.0) == north;
-        let evenness = |row: usize| {
-            ((latitude_deg(row).abs() - EVEN_DEG[0]) / (EVEN_DEG[1] - EVEN_DEG[0])).clamp(0.0, 1.0)
-        };
+    for hemisphere in [1.0, -1.0] {
         let (mut mean, mut count) = ([PhaseCell::default(); 3], 0.0);
-        for row in (0..height).filter(|&row| is_of_cap(row)) {
-            if evenness(row) > 0.0 && evenness(row) < 1.0 {
+        for row in 0..height {
+            let from_equator = hemisphere * latitude_deg(row);
+            if from_equator >= MEAN_DEG[0] && from_equator < MEAN_DEG[1] {
                 for cell in &cells[row * width..][..width] {
                     count += 1.0;
-                    for (mean, part) in mean.iter_mut().zip(cell) {
-                        *mean = mean.towards(part, 1.0 / count);
-                    }
+                    mean = std::array::from_fn(|band| mean[band].towards(&cell[band], 1.0 / count));
                 }
             }
         }
-        for row in (0..height).filter(|&row| is_of_cap(row)) {
-            for cell in &mut cells[row * width..][..width] {
-                *cell = std::array::from_fn(|band| cell[band].towards(&mean[band], evenness(row)));
+        for row in 0..height {
+            let from_equator = hemisphere * latitude_deg(row);
+            let share = (from_equator - EVEN_DEG[0]) / (EVEN_DEG[1] - EVEN_DEG[0]);
+            if count > 0.0 && share > 0.0 {
+                for cell in &mut cells[row * width..][..width] {
+                    *cell =
+                        std::array::from_fn(|band| cell[band].towards(&mean[band], share.min(1.0)));
+                }
             }
         }
     }

@@ -96,9 +96,10 @@ fn mesh_for(picture_px: u32) -> [MeshBand; 4] {
             is_skirt: false,
         }
     };
-    let limb = band([85, 96], 80.0, 16.0);
-    let skirt = MeshBand { from_deg: 80, to_deg: 90, rings: 1, is_skirt: true, ..limb };
-    [band([0, 75], 24.0, 32.0), band([75, 85], 160.0, 16.0), limb, skirt]
+    let limb = band([82, 96], 80.0, 16.0);
+    let skirt = MeshBand { from_deg: 78, to_deg: 90, rings: 1, is_skirt: true, ..limb };
+    // Each reaches under the one before, so that no crack is left between their corners.
+    [band([0, 75], 24.0, 32.0), band([72, 85], 120.0, 16.0), limb, skirt]
 }
 
 #[cfg(test)]
