@@ -4,8 +4,10 @@
 //! of the same run and size, the sky of a plan without any light, so that machines compare.
 //! Without a graphics adapter only the CPU's part is printed, and the reason.
 
+use std::borrow::Borrow;
 use std::error::Error;
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant as Clock;
 
 use nocturne::air::Atmosphere;
@@ -126,8 +128,20 @@ fn moon(
     println!("  laying it, CPU {:24.2} ms", median_ms(SLOW, lay));
     let empty = passes(renderer, &FramePlan { discs: Vec::new(), ..plan.clone() })?;
     println!("  frame without it {:22.2} ms", empty.of("sky"));
-    for (pass, ms) in passes(renderer, &plan)?.passes.iter().skip(1) {
-        println!("  {pass:20} {ms:18.2} ms");
+    // The same globe shows its kept picture; an equal one is drawn.
+    let equal = || {
+        let mut plan = plan.clone();
+        for seen in plan.discs.iter_mut().filter_map(|disc| disc.globe.as_mut()) {
+            seen.globe = Arc::new((*seen.globe).clone());
+        }
+        plan
+    };
+    let kept = passes(renderer, &plan)?;
+    let anew = passes_of(renderer, equal, SkyDetail::Tiles)?;
+    for (when, cost) in [("kept", kept), ("anew", anew)] {
+        for (pass, ms) in cost.passes.iter().skip(1) {
+            println!("  {when} {pass:20} {ms:13.2} ms");
+        }
     }
     Ok(())
 }
@@ -242,11 +256,21 @@ fn passes_with(
     plan: &FramePlan,
     detail: SkyDetail,
 ) -> Result<Cost, Box<dyn Error>> {
+    passes_of(renderer, || plan, detail)
+}
+
+/// The same with a plan for each frame.
+fn passes_of<P: Borrow<FramePlan>>(
+    renderer: &Renderer,
+    plan: impl Fn() -> P,
+    detail: SkyDetail,
+) -> Result<Cost, Box<dyn Error>> {
     let mut runs = Vec::new();
-    renderer.frame_with(plan, detail)?;
+    renderer.frame_with(plan().borrow(), detail)?;
     for _ in 0..FRAMES {
+        let plan = plan();
         let start = Clock::now();
-        let times = renderer.frame_with(plan, detail)?.times;
+        let times = renderer.frame_with(plan.borrow(), detail)?.times;
         runs.push((start.elapsed().as_secs_f64() * 1e3, times));
     }
     let of_pass = |number: usize| median(runs.iter().map(|run| run.1[number].milliseconds));

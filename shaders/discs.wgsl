@@ -18,10 +18,8 @@ struct Disc {
     // Sine and cosine of the altitude of the centre, without air, and the sine of the angular radius.
     centre: vec4f,
     // From the body to the Sun, in axes of the disc: level, up, away from the observer; w is the law:
-    // 0 Sun, 1 Moon, 2 Lambert, 3 corona.
+    // 0 Sun, 2 Lambert, 3 corona.
     to_sun: vec4f,
-    // Rows: the body's own axes in those of the disc.
-    body_from_disc: mat3x3f,
     // What stands in front, in axes of the disc: level, up, and one less the part away from the
     // observer, in z; in w the chord of its angular radius.
     occluder: vec4f,
@@ -33,10 +31,9 @@ struct Disc {
     per_step: f32,
     // How near to an edge the samples are those of the edge, in radii.
     edge: f32,
-    bands: u32,
-    map_width: u32,
     // Of a globe: sine and cosine of the angle from up to its north, growing to the right.
-    north: vec4f,
+    north: vec2f,
+    bands: u32,
 }
 
 // A disc in one band of colour.
@@ -52,47 +49,26 @@ struct Band {
 }
 
 const SUN: u32 = 0;
-const MOON: u32 = 1;
+const CORONA: u32 = 3;
 // Place among the nodes of what no horizon cuts.
 const UNCUT: f32 = 1e6;
-const CORONA: u32 = 3;
 // Bands of light of a globe for each band of colour.
 const CHANNELS: u32 = 4;
 
 @group(0) @binding(0) var<storage, read> camera: Camera;
 @group(0) @binding(1) var<storage, read> disc: Disc;
-// Relative albedo, longitude -180 to 180 along x, latitude 90 to -90 down y.
-@group(0) @binding(2) var<storage, read> albedo: array<f32>;
-@group(0) @binding(3) var<storage, read> bands: array<Band>;
+@group(0) @binding(2) var<storage, read> bands: array<Band>;
 // The globe without air, its north up, by channel, and its mean over the disc.
-@group(0) @binding(4) var globe: texture_2d<f32>;
-@group(0) @binding(5) var across_globe: sampler;
-@group(0) @binding(6) var<storage, read> globe_mean: vec4f;
-@group(0) @binding(7) var outline: texture_2d<f32>;
-@group(0) @binding(8) var around: sampler;
+@group(0) @binding(3) var globe: texture_2d<f32>;
+@group(0) @binding(4) var across_globe: sampler;
+@group(0) @binding(5) var<storage, read> globe_mean: vec4f;
+@group(0) @binding(6) var outline: texture_2d<f32>;
+@group(0) @binding(7) var around: sampler;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let corner = vec2f(f32(index & 1u), f32(index >> 1u));
     return clip_from_pixel(camera, mix(disc.first_px, disc.last_px, corner));
-}
-
-// Given the outward normal in the body's own axes, the relative albedo there.
-fn albedo_at(normal: vec3f) -> f32 {
-    let width = i32(disc.map_width);
-    let height = width / 2;
-    let longitude = atan2(normal.y, normal.x);
-    let latitude = atan2(normal.z, length(normal.xy));
-    let x = (longitude / PI * 0.5 + 0.5) * f32(width) - 0.5;
-    let y = clamp((0.5 - latitude / PI) * f32(height) - 0.5, 0.0, f32(height) - 1.0);
-    let x0 = i32(floor(x));
-    let y0 = min(i32(y), height - 2);
-    let left = (x0 + width) % width;
-    let right = (x0 + 1) % width;
-    let top = mix(albedo[y0 * width + left], albedo[y0 * width + right], x - f32(x0));
-    let low = (y0 + 1) * width;
-    let bottom = mix(albedo[low + left], albedo[low + right], x - f32(x0));
-    return mix(top, bottom, y - f32(y0));
 }
 
 // Given a band, the outward normal in axes of the disc and the cosine of emission, the shape of the
@@ -109,19 +85,12 @@ fn shape(band: u32, normal: vec3f, cos_emission: f32) -> f32 {
         let coefficients = bands[band].limb[0];
         let radii = length(normal.xy) * coefficients.w;
         let inverse = 1.0 / max(radii, 1.0);
-        let powers = vec3f(pow(inverse, 2.5), pow(inverse, 7.0), pow(inverse, 17.0));
+        let square = inverse * inverse;
+        let eighth = square * square * square * square;
+        let powers = vec3f(square * sqrt(inverse), eighth / inverse, eighth * eighth * inverse);
         return select(0.0, dot(coefficients.xyz, powers), radii >= 1.0);
     }
-    let cos_incidence = dot(normal, disc.to_sun.xyz);
-    if cos_incidence <= 0.0 {
-        return 0.0;
-    }
-    if law == MOON {
-        // Lommel and Seeliger: no limb darkening at full phase.
-        let lit = cos_incidence / (cos_incidence + cos_emission);
-        return lit * albedo_at(disc.body_from_disc * normal);
-    }
-    return cos_incidence;
+    return max(dot(normal, disc.to_sun.xyz), 0.0);
 }
 
 // The sine of an angle over the angle, with all digits for small ones.

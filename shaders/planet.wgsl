@@ -34,7 +34,7 @@ struct Planet {
 
 const NO_RING: u32 = 99;
 
-@group(0) @binding(7) var<storage, read> planet: Planet;
+@group(0) @binding(8) var<storage, read> planet: Planet;
 
 // Makes the globe a ball.
 fn stretched(v: vec3f) -> vec3f {

@@ -50,7 +50,6 @@ fn main() {
         GpuTest::new("objects_stand_where_the_description_says", objects_stand_where_described),
         GpuTest::new("moon_and_sun_have_their_flux_at_any_size", moon_and_sun_have_their_flux),
         GpuTest::new("a_globe_has_the_light_of_the_moon_at_any_size", globe_has_its_light),
-        GpuTest::new("a_full_moon_is_as_bright_at_its_limb", full_moon_is_flat),
         GpuTest::new("a_disc_is_that_of_its_plan", disc_is_that_of_its_plan),
         GpuTest::new("limbs_stand_right_in_the_narrowest_field", limbs_in_the_narrowest_field),
         GpuTest::new("the_setting_sun_has_its_flux_and_its_rims", setting_sun_has_its_rims),
@@ -142,7 +141,7 @@ fn fifty_stars_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
                 let outside = through_air * star.illuminance_lx / star.illuminance_ground_lx;
                 let expected = 2.54e-6 * 10f64.powf(-0.4 * star.magnitude_v);
                 let error = outside / expected - 1.0;
-                check(error.abs() < 0.01, || {
+                check(error.abs() < 0.005, || {
                     format!("{width_px} px, {fov_deg}°: {} is off by {error:.4}", star.name)
                 })?;
             }
@@ -217,7 +216,7 @@ fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
                 }
             }
             let error = sum / body.illuminance_ground_lx - 1.0;
-            check(error.abs() < 0.01, || {
+            check(error.abs() < 0.005, || {
                 format!("{name}, {fov_deg}° on {width_px} px: off by {error:.4}")
             })?;
         }
@@ -241,14 +240,15 @@ fn moon(utc: &str, field_deg: f64, width_px: u32) -> Result<Scene, Failed> {
 }
 
 fn globe_has_its_light(renderer: &Renderer) -> Result<(), Failed> {
-    // Crescent, first quarter, nearly full, in an eclipse; from 10 pixels across to 1900.
+    // Crescent, first quarter, nearly full, in an eclipse; from 8 pixels across to 2000.
     for utc in [
         "2026-08-17T01:30:00Z",
         "2026-08-20T03:30:00Z",
         "2026-08-27T06:00:00Z",
         "2026-03-03T10:30:00Z",
     ] {
-        for (field_deg, width_px) in [(12.0, 256), (4.0, 256), (1.0, 256), (0.7, 700), (0.56, 2000)]
+        for (field_deg, width_px) in
+            [(15.9, 256), (12.0, 256), (7.3, 256), (4.0, 256), (1.0, 256), (0.7, 700), (0.56, 2100)]
         {
             let (frame, setting, night) = drawn(renderer, &moon(utc, field_deg, width_px)?)?;
             let mut sum = Xyzv::BLACK;
@@ -261,37 +261,13 @@ fn globe_has_its_light(renderer: &Renderer) -> Result<(), Failed> {
             let expected = night.body(Body::Moon).ok_or("no Moon")?.ground;
             for (got, wanted) in [(sum.x, expected.x), (sum.y, expected.y), (sum.z, expected.z)] {
                 let error = got / wanted - 1.0;
-                // The Earth's light, which is not in the description, is a hundredth in the crescent.
-                check((-0.0125..0.02).contains(&error), || {
+                check(error.abs() < 0.005, || {
                     format!("{utc}, {field_deg}° on {width_px} px: off by {error:.4}")
                 })?;
             }
         }
     }
     Ok(())
-}
-
-fn full_moon_is_flat(renderer: &Renderer) -> Result<(), Failed> {
-    // Two degrees from opposition; the seas are in it, and mostly inside.
-    let (frame, _, night) = drawn(renderer, &moon("2025-02-12T12:00:00Z", 0.7, 500)?)?;
-    let moon = &night.sky.moon.state;
-    check(moon.phase_angle.deg() < 4.0, || format!("{}", moon.phase_angle.deg()))?;
-    let radius_px = 500.0 * moon.angular_radius.deg() / 0.7;
-    let (mut inner, mut outer) = ((0.0, 0), (0.0, 0));
-    for y in 0..500 {
-        for x in 0..500 {
-            let off = (f64::from(x) - 249.5).hypot(f64::from(y) - 249.5) / radius_px;
-            let part = match off {
-                off if off < 1.0 / 3.0 => &mut inner,
-                off if (0.8..0.95).contains(&off) => &mut outer,
-                _ => continue,
-            };
-            part.0 += frame.xyzv(x, y).y;
-            part.1 += 1;
-        }
-    }
-    let ratio = inner.0 / f64::from(inner.1) / (outer.0 / f64::from(outer.1));
-    check((0.8..1.1).contains(&ratio), || format!("inner over outer: {ratio}"))
 }
 
 /// The Sun over the sea at an equinox, its centre a third of a degree above the horizon, and nothing

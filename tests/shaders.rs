@@ -70,14 +70,12 @@ fn uniforms_have_one_layout_on_both_sides() {
             lowest,
             centre,
             to_sun,
-            body_from_disc,
             occluder,
             samples,
             per_step,
             edge,
-            bands,
-            map_width,
-            north
+            north,
+            bands
         ]
     );
     same_layout!(discs, "Band", DiscBandUniform, [limb, luminance, above_centre]);

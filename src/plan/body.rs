@@ -1,13 +1,14 @@
 //! The Sun, the Moon and planets as the camera has them: as a point, a few points, or a disc.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use glam::DMat3;
 
 use crate::air::extinction::SightLines;
 use crate::air::refraction::{Rays, Refraction};
 use crate::camera::Camera;
-use crate::catalog::{MoonMap, MoonMaps};
+use crate::catalog::MoonMaps;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::disc_axes;
@@ -19,7 +20,7 @@ use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
 use crate::units::{Angle, SUN_RADIUS_KM, Xyzv};
 
-use super::disc::{AlbedoMap, Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
+use super::disc::{Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
 use super::globe::umbra::UmbraTable;
 use super::globe::{CHANNELS, GlobeView, KeptGlobe, SeenGlobe};
 use super::planet::PlanetDisc;
@@ -175,10 +176,19 @@ impl<'a> SeenBody<'a> {
 
     /// The air across the disc; none when no part of it is above the horizon.
     pub fn air(&self) -> Option<DiscAir> {
+        self.air_in(true)
+    }
+
+    /// The same for what has no edge by which colours could be seen apart.
+    pub fn air_of_one_band(&self) -> Option<DiscAir> {
+        self.air_in(false)
+    }
+
+    fn air_in(&self, colours: bool) -> Option<DiscAir> {
         let dispersion = self.dispersion();
         let apart_px = dispersion.rad() * self.px_per_rad;
         let unseen_px = if self.is_globe() { UNSEEN_ON_GLOBE_PX } else { UNSEEN_PX };
-        let is_coloured = apart_px > unseen_px && !self.is_small();
+        let is_coloured = colours && apart_px > unseen_px && !self.is_small();
         // Blue is lifted, red is lowered, by about half of what parts them.
         let spread = if is_coloured { dispersion } else { Angle::ZERO };
         let lowest = (self.limb(-self.reach() - BEYOND_LIMB) - spread).max(self.night.horizon);
@@ -356,7 +366,7 @@ impl<'a> SeenBody<'a> {
                 SurfaceLaw::Sun { limb_darkening }
             }
             Body::Moon => match surface {
-                Some(surface) => SurfaceLaw::Moon { map: albedo_map(&surface.albedo) },
+                Some(surface) => SurfaceLaw::Moon { map: Arc::clone(&surface.albedo) },
                 None => SurfaceLaw::Lambert,
             },
             _ => SurfaceLaw::Planet(PlanetDisc::of(self.state)),
@@ -458,10 +468,4 @@ fn planet_edge(radius_px: f64, is_coloured: bool) -> Lattice {
         (_, true) => BETWEEN,
         (_, false) => EDGE,
     }
-}
-
-/// Relative albedo of the Moon, as photopic eyes weigh its three bands (Rec. 709 luminance).
-fn albedo_map(map: &MoonMap) -> AlbedoMap {
-    let luminance = |[r, g, b]: &[f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    AlbedoMap { width: map.width, albedo: map.reff.iter().map(luminance).collect() }
 }

@@ -64,7 +64,7 @@ pub fn seen(object: &LitObject, night: &Night, camera: &Camera) -> Result<Corona
         return Err(BELOW_HORIZON);
     }
     let bounds_px = seen.bounds_px().ok_or(OUT_OF_VIEW)?;
-    let air = seen.air().ok_or(BELOW_HORIZON)?;
+    let air = seen.air_of_one_band().ok_or(BELOW_HORIZON)?;
     let shape = DiscShape { law: SurfaceLaw::Corona, ..seen.shape(None) };
     let whole = DiscShape { angular_radius: sun.angular_radius, ..seen.shape(None) };
     // A disc has the light of the whole Sun over the mean of its shape; the corona's is in units of the

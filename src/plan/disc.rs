@@ -10,8 +10,11 @@
 //! colour, each with its own refraction and its own limb darkening; the bands share the spectrum out
 //! so that their sum is the light of a single one. Where it does not show there is one band.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec2, DVec3};
 
+use crate::catalog::MoonMap;
 use crate::frame::{Apparent, Dir, Horizon, View};
 use crate::light::corona;
 use crate::light::disc_light::disc_axes;
@@ -28,42 +31,14 @@ pub const NODES: usize = 33;
 pub enum SurfaceLaw {
     /// Shines by itself; `I(mu) / I(1)` is the polynomial with these coefficients.
     Sun { limb_darkening: [f64; 6] },
-    /// Lommel and Seeliger's law times a map of relative albedo.
-    Moon { map: AlbedoMap },
+    /// Lommel and Seeliger's law times the reflectance of the map: for points, a larger Moon is a globe.
+    Moon { map: Arc<MoonMap> },
     /// Lambert's law.
     Lambert,
     /// A flattened globe with its own law, and rings.
     Planet(PlanetDisc),
     /// Light around the Sun, over the mean radiance of its disc; dark within.
     Corona,
-}
-
-/// Relative albedo in the body's own axes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AlbedoMap {
-    /// Columns, longitude -180 to 180 degrees; there are half as many rows, from north to south.
-    pub width: usize,
-    pub albedo: Vec<f32>,
-}
-
-impl AlbedoMap {
-    /// Bilinear look-up along an outward normal in the body's own axes.
-    pub fn at(&self, normal: DVec3) -> f64 {
-        let (width, height) = (self.width as i64, self.width as i64 / 2);
-        let turns = normal.y.atan2(normal.x) / std::f64::consts::TAU;
-        let latitude = normal.z.atan2(normal.x.hypot(normal.y));
-        let x = (turns + 0.5) * width as f64 - 0.5;
-        let y = (0.5 - latitude / std::f64::consts::PI) * height as f64 - 0.5;
-        let y = y.clamp(0.0, (height - 1) as f64);
-        let (x0, y0) = (x.floor() as i64, (y as i64).min(height - 2));
-        let texel =
-            |x: i64, y: i64| f64::from(self.albedo[(y * width + x.rem_euclid(width)) as usize]);
-        let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
-        let along = x - x0 as f64;
-        let top = mix(texel(x0, y0), texel(x0 + 1, y0), along);
-        let bottom = mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), along);
-        mix(top, bottom, y - y0 as f64)
-    }
 }
 
 /// Where a body's light falls from, and how it is spread over its disc.
@@ -180,7 +155,7 @@ impl DiscShape {
         match &self.law {
             SurfaceLaw::Moon { map } => {
                 let lit = cos_incidence / (cos_incidence + cos_emission);
-                lit * map.at(self.body_from_horizon * normal)
+                lit * luminance(map, self.body_from_horizon * normal)
             }
             _ => cos_incidence,
         }
@@ -238,6 +213,15 @@ impl DiscShape {
     }
 }
 
+/// The reflectance at an outward normal in the Moon's own axes, as photopic eyes weigh the three bands
+/// (Rec. 709 luminance).
+fn luminance(map: &MoonMap, normal: DVec3) -> f64 {
+    let longitude = Angle::from_rad(normal.y.atan2(normal.x));
+    let latitude = Angle::from_rad(normal.z.atan2(normal.x.hypot(normal.y)));
+    let [red, green, blue] = map.reff(longitude, latitude);
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,7 +256,7 @@ mod tests {
 
     #[test]
     fn full_moon_has_no_limb_darkening() {
-        let map = AlbedoMap { width: 4, albedo: vec![1.0; 8] };
+        let map = Arc::new(MoonMap { width: 4, height: 2, reff: vec![[1.0; 3]; 8] });
         let shape = disc(SurfaceLaw::Moon { map }, 0.0);
         let samples = shape.samples(16);
         let mean = 1.0 / samples.len() as f64;
@@ -286,12 +270,5 @@ mod tests {
         assert!((samples.iter().map(|s| s.share).sum::<f64>() - 1.0).abs() < 1e-12);
         let pull: DVec3 = samples.iter().map(|s| s.dir.vector() * s.share).sum();
         assert!((pull - shape.centre.vector()).dot(shape.dir_to_sun.vector()) > 0.0);
-    }
-
-    #[test]
-    fn the_map_wraps_at_the_far_side_and_runs_from_north_to_south() {
-        let map = AlbedoMap { width: 4, albedo: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0] };
-        assert!((map.at(DVec3::NEG_X) - (1.0 + 4.0 + 5.0 + 8.0) / 4.0).abs() < 1e-6);
-        assert!(map.at(DVec3::Z) < 4.5 && map.at(DVec3::NEG_Z) > 4.5);
     }
 }

@@ -54,14 +54,7 @@ impl DiscPass {
     }
 
     fn draw_shape(&self, frame: &mut Target, disc: &Disc, [uniform, bands]: [&wgpu::Buffer; 2]) {
-        let albedo: &[f32] = match &disc.shape.law {
-            SurfaceLaw::Moon { map } => &map.albedo,
-            // A binding cannot be empty; the law does not read it.
-            _ => &[1.0],
-        };
-        let albedo = bytemuck::cast_slice(albedo);
-        let albedo = frame.gpu.buffer("albedo", albedo, wgpu::BufferUsages::STORAGE);
-        let group = frame.bind(&self.shapes, &[uniform, &albedo, bands]);
+        let group = frame.bind(&self.shapes, &[uniform, bands]);
         frame.pass(disc.label, |pass| {
             pass.set_pipeline(&self.shapes);
             pass.set_bind_group(0, &group, &[]);
@@ -81,7 +74,7 @@ impl DiscPass {
         let planet = gpu.buffer("planet", bytemuck::bytes_of(&planet), wgpu::BufferUsages::STORAGE);
         let group = gpu.bind(
             &pipeline.get_bind_group_layout(0),
-            &[(0, &frame.camera), (1, uniform), (3, bands), (7, &planet)],
+            &[(0, &frame.camera), (1, uniform), (2, bands), (8, &planet)],
         );
         frame.pass(disc.label, |pass| {
             pass.set_pipeline(pipeline);
@@ -104,12 +97,12 @@ impl DiscPass {
             &[
                 (0, frame.camera.as_entire_binding()),
                 (1, uniform.as_entire_binding()),
-                (3, bands.as_entire_binding()),
-                (4, wgpu::BindingResource::TextureView(&picture.view)),
-                (5, wgpu::BindingResource::Sampler(&self.across_picture)),
-                (6, picture.mean.as_entire_binding()),
-                (7, wgpu::BindingResource::TextureView(&picture.outline)),
-                (8, wgpu::BindingResource::Sampler(&self.globe.around)),
+                (2, bands.as_entire_binding()),
+                (3, wgpu::BindingResource::TextureView(&picture.view)),
+                (4, wgpu::BindingResource::Sampler(&self.across_picture)),
+                (5, picture.mean.as_entire_binding()),
+                (6, wgpu::BindingResource::TextureView(&picture.outline)),
+                (7, wgpu::BindingResource::Sampler(&self.globe.around)),
             ],
         );
         let GlobeTiles { columns, rows, .. } = GlobeTiles::of(disc);

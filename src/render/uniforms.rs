@@ -56,14 +56,13 @@ pub struct DiscUniform {
     pub lowest: [f32; 4],
     pub centre: [f32; 4],
     pub to_sun: [f32; 4],
-    pub body_from_disc: [[f32; 4]; 3],
     pub occluder: [f32; 4],
     pub samples: [u32; 4],
     pub per_step: f32,
     pub edge: f32,
+    pub north: [f32; 2],
     pub bands: u32,
-    pub map_width: u32,
-    pub north: [f32; 4],
+    pub pad: [u32; 3],
 }
 
 /// `Band` of `shaders/discs.wgsl`.
@@ -268,13 +267,13 @@ impl DiscUniform {
             Some(_) => GlobeTiles::of(disc).first_px,
             None => disc.bounds_px[0],
         };
-        let (law, map_width) = match &shape.law {
-            SurfaceLaw::Sun { .. } => (0.0, 0),
-            SurfaceLaw::Moon { map } => (1.0, map.width),
-            SurfaceLaw::Lambert => (2.0, 0),
-            SurfaceLaw::Corona => (3.0, 0),
+        let law = match &shape.law {
+            SurfaceLaw::Sun { .. } => 0.0,
+            // A Moon that shows a disc is a globe, whose own picture is what is drawn.
+            SurfaceLaw::Moon { .. } | SurfaceLaw::Lambert => 2.0,
+            SurfaceLaw::Corona => 3.0,
             // In `shaders/planet.wgsl`.
-            SurfaceLaw::Planet(_) => (4.0, 0),
+            SurfaceLaw::Planet(_) => 4.0,
         };
         let horizon_from_disc = DMat3::from_cols_array_2d(&disc_axes(shape.centre).map(Into::into));
         let in_disc = |dir: Dir<Horizon>| horizon_from_disc.transpose() * dir.vector();
@@ -301,7 +300,6 @@ impl DiscUniform {
             lowest: with(lowest, lowest.x.hypot(lowest.y)),
             centre: [sin as f32, cos as f32, sin_radius as f32, 0.0],
             to_sun: with(in_disc(shape.dir_to_sun), law),
-            body_from_disc: columns(shape.body_from_horizon * horizon_from_disc),
             // A chord of zero hides nothing.
             occluder: disc.occluder.map_or([0.0; 4], |(dir, radius)| {
                 let at = in_disc(dir);
@@ -311,9 +309,9 @@ impl DiscUniform {
             samples,
             per_step: (1.0 / disc.step.rad()) as f32,
             edge: disc.edge as f32,
+            north: [sin_north as f32, cos_north as f32],
             bands: (disc.bands.len() / disc.channels()) as u32,
-            map_width: map_width as u32,
-            north: [sin_north as f32, cos_north as f32, 0.0, 0.0],
+            pad: [0; 3],
         }
     }
 }

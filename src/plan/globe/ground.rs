@@ -95,7 +95,7 @@ fn evened_at_poles(
         let (mut mean, mut count) = ([PhaseCell::default(); 3], 0.0);
         for row in 0..height {
             let from_equator = hemisphere * latitude_deg(row);
-            if from_equator >= MEAN_DEG[0] && from_equator < MEAN_DEG[1] {
+            if (MEAN_DEG[0]..MEAN_DEG[1]).contains(&from_equator) {
                 for cell in &cells[row * width..][..width] {
                     count += 1.0;
                     mean = std::array::from_fn(|band| mean[band].towards(&cell[band], 1.0 / count));
