@@ -13,6 +13,8 @@ struct Globe {
     // Earth at the rim of the Earth's shadow; towards the Earth, in w its distance.
     sun: vec4f,
     earth: vec4f,
+    // In x, how much of what would hide the Sun hides the ground from the observer too.
+    alike: vec4f,
 }
 
 // A band of the mesh around the point below the observer: rings of corners, each a full turn.
@@ -139,13 +141,18 @@ fn sunlight(ground: Ground, outward: vec3f, soil: vec4f, at: vec2f) -> vec3f {
     let to_observer = normalize(globe.observer.xyz - outward);
     let hidden = max(LEAST_COSINE - dot(sloping, to_observer), 0.0);
     let normal = normalize(sloping + to_observer * hidden);
-    let cos_incidence = max(dot(normal, globe.body_from_sun[2]), 0.0);
+    // What stands in its own shadow, or in another's, is not seen aslant from where the Sun stands higher.
+    let to_sun = globe.body_from_sun[2];
+    let rise = dot(outward, to_sun) - dot(outward, to_observer);
+    let seen_lit = globe.alike.x * smoothstep(-0.05, 0.0, rise);
+    let cosine = dot(normal, to_sun);
+    let cos_incidence = max(cosine, 0.0) + seen_lit * max(LEAST_COSINE - max(cosine, 0.0), 0.0);
     let cos_emission = max(dot(normal, to_observer), LEAST_COSINE);
     let ratios = textureSampleLevel(colours, across_near_side, at, 0.0).xy + vec2f(LEAST_RED, LEAST_BLUE);
     let reflectance = soil.w * vec3f(ratios.x, 1.0, ratios.y);
     var light = reflectance * law(ground, cos_incidence, cos_emission);
     if SHADOWS {
-        light *= sunlit(outward * globe.body_from_sun);
+        light *= mix(sunlit(outward * globe.body_from_sun), 1.0, seen_lit);
     }
     if ECLIPSE {
         light *= beside_earth(outward);

@@ -5,7 +5,8 @@ use std::mem::offset_of;
 
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, PlanetUniform, RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, GlobeUniform, MeshBandUniform, PlanetUniform,
+    RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -58,6 +59,14 @@ fn uniforms_have_one_layout_on_both_sides() {
         SkyUniform,
         [sources, shines, azimuths, above, below, phases, horizon, half_pixel]
     );
+    let globe = parsed("globe", &assembled("globe"));
+    same_layout!(
+        globe,
+        "Globe",
+        GlobeUniform,
+        [body_from_picture, body_from_sun, observer, sun, earth, alike]
+    );
+    same_layout!(globe, "MeshBand", MeshBandUniform, [first, last, rings, sectors, is_skirt]);
     let discs = parsed("discs", &assembled("discs"));
     same_layout!(
         discs,

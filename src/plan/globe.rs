@@ -92,6 +92,17 @@ impl GlobeView {
         }
     }
 
+    /// The phase angle.
+    pub fn phase(&self) -> Angle {
+        Angle::from_rad(self.to_sun.angle_between(self.to_observer))
+    }
+
+    /// How much of what would hide the Sun from the ground hides the ground from the observer too, where both
+    /// stand low over it: `exp(-2 tan(g / 2))` of the angle between them (Hapke 1984, *Icarus* 59, 41).
+    pub fn hidden_alike(&self) -> f64 {
+        (-2.0 * (0.5 * self.phase().rad()).tan()).exp()
+    }
+
     /// Axes of the picture in the Moon's own: to the right, up, away from the observer.
     pub fn body_from_picture(&self) -> DMat3 {
         let away = -self.to_observer;
@@ -168,7 +179,7 @@ impl KeptGlobe {
         }
         let last = self.maps.take().filter(|_| are_kept);
         let kept = self.maps.insert(KeptMaps::of(maps, view.picture_px, last));
-        let phase = Angle::from_rad(view.to_sun.angle_between(view.to_observer));
+        let phase = view.phase();
         let relief = Arc::clone(&kept.relief.1);
         let radius_px = 0.5 * f64::from(view.picture_px) / EXTENT;
         let globe = Globe {

@@ -112,6 +112,7 @@ pub struct GlobeUniform {
     pub observer: [f32; 4],
     pub sun: [f32; 4],
     pub earth: [f32; 4],
+    pub alike: [f32; 4],
 }
 
 /// `MeshBand` of `shaders/globe.wgsl`.
@@ -242,6 +243,7 @@ impl GlobeUniform {
             observer: with(view.to_observer * view.distance, view.distance),
             sun: view.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_sun, s.rim.rad())),
             earth: view.shadow.as_ref().map_or([0.0; 4], |s| with(s.to_earth, s.to_earth.length())),
+            alike: [view.hidden_alike() as f32, 0.0, 0.0, 0.0],
         }
     }
 }
