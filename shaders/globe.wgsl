@@ -1,5 +1,5 @@
 // The Moon without air, on a square picture of its own: a mesh displaced by the relief, lit by the
-// Sun and by the Earth. The Moon's north is up; the edges of the picture lie at `extent` radii of the Moon
+// Sun and by the Earth. The Moon's north is up; the edges of the picture lie at EXTENT radii of the Moon
 // as the observer sees them.
 
 struct Globe {

@@ -3,6 +3,9 @@
 
 use std::mem::offset_of;
 
+use nocturne::plan::globe::EXTENT;
+use nocturne::plan::globe::near_side::EDGE;
+use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
     CameraUniform, DiscBandUniform, DiscUniform, GlobeUniform, MeshBandUniform, PlanetUniform,
@@ -113,4 +116,29 @@ fn uniforms_have_one_layout_on_both_sides() {
             rings
         ]
     );
+}
+
+#[test]
+fn numbers_of_the_globe_are_those_of_the_plan() {
+    let module = parsed("globe", &assembled("globe"));
+    let said = |name: &str| {
+        let found = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
+        let (_, constant) = found.unwrap_or_else(|| panic!("no constant {name}"));
+        match module.global_expressions[constant.init] {
+            naga::Expression::Literal(naga::Literal::F32(value)) => value,
+            ref other => panic!("{name} is {other:?}"),
+        }
+    };
+    for (name, meant) in [
+        ("EXTENT", EXTENT),
+        ("MAP_EDGE", EDGE),
+        ("COS_FIRST_SHADOW", Shadows::FIRST.cos()),
+        ("COS_LAST_SHADOW", Shadows::LAST.cos()),
+    ] {
+        assert!(
+            (f64::from(said(name)) - meant).abs() < 1e-7,
+            "{name}: {}, not {meant}",
+            said(name)
+        );
+    }
 }

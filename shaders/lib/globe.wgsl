@@ -1,4 +1,4 @@
-// The globe of the Moon and its picture: the numbers that src/plan/globe.rs says.
+// The globe of the Moon and its picture: numbers of src/plan/globe and src/render/globe_maps.rs.
 
 // Half of the edge of the picture, in radii of the Moon.
 const EXTENT: f32 = 1.01;
