@@ -37,6 +37,13 @@ const SKIES: [(&str, &str); 3] = [
     ("moonlit night", "2026-08-28T06:00:00Z"),
     ("day", "2026-08-15T17:00:00Z"),
 ];
+/// Moons, by phase, UTC and field, degrees.
+const MOONS: [(&str, &str, f64); 4] = [
+    ("nine days old", "2026-08-22T04:00:00Z", 90.0),
+    ("nine days old", "2026-08-22T04:00:00Z", 10.0),
+    ("nine days old", "2026-08-22T04:00:00Z", 1.0),
+    ("nearly full", "2026-08-27T06:00:00Z", 1.0),
+];
 const SIZES: [(u32, u32); 2] = [(1280, 720), (1920, 1080)];
 const SPLATS: [usize; 3] = [1000, 9096, 90_960];
 /// Repetitions whose median is taken: of frames, and of what takes a second.
@@ -97,20 +104,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         let frame = renderer.frame(night)?.frame;
         line("Eye::see", "CPU", see_ms(&frame));
     }
-    for field_deg in [90.0, 10.0, 1.0] {
-        moon(&renderer, field_deg, &catalogs, &moon_maps)?;
+    for (phase, utc, field_deg) in MOONS {
+        println!("The Moon, {phase}, in a field of {field_deg}°, 1920x1080");
+        moon(&renderer, utc, field_deg, &catalogs, &moon_maps)?;
     }
     Ok(())
 }
 
-/// The Moon alone in the middle of a picture, nine days old.
+/// The Moon alone in the middle of a picture.
 fn moon(
     renderer: &Renderer,
+    utc: &str,
     field_deg: f64,
     catalogs: &Catalogs,
     maps: &MoonMaps,
 ) -> Result<(), Box<dyn Error>> {
-    let mut setting = setting("2026-08-22T04:00:00Z", 1920, 1080)?;
+    let mut setting = setting(utc, 1920, 1080)?;
     let ephemeris = Ephemeris::load(catalogs, setting.tolerance)?;
     let sky = SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
     let night = Night::of(sky, Vec::new(), &Atmosphere::default());
@@ -124,7 +133,7 @@ fn moon(
     let globe = plan.discs.first().and_then(|disc| disc.globe.as_ref());
     let triangles: u32 =
         globe.iter().flat_map(|seen| seen.globe.mesh()).map(|b| b.triangles()).sum();
-    println!("The Moon in a field of {field_deg}°, 1920x1080: {triangles} triangles");
+    println!("  {triangles} triangles");
     println!("  laying it, CPU {:24.2} ms", median_ms(SLOW, lay));
     let empty = passes(renderer, &FramePlan { discs: Vec::new(), ..plan.clone() })?;
     println!("  frame without it {:22.2} ms", empty.of("sky"));

@@ -8,8 +8,8 @@ use nocturne::ephemeris::Body;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::render::Renderer;
 use nocturne::scene::Scene;
-use nocturne::units::{Angle, Xyzv};
-use support::{GpuTest, check, drawn, laid};
+use nocturne::units::Angle;
+use support::{GpuTest, check, drawn, illuminance, laid};
 
 /// Near Torreon in the middle of totality on 2024-04-08, and the day before.
 const TOTALITY: &str = "2024-04-08T18:18:45Z";
@@ -48,13 +48,7 @@ fn the_corona_has_its_light(renderer: &Renderer) -> Result<(), Failed> {
         let (frame, setting, night) = drawn(renderer, &sun(TOTALITY, field_deg, width_px)?)?;
         let covered = night.eclipse.sun.ok_or("no eclipse")?;
         check(covered.is_total(), || format!("{covered:?}"))?;
-        let mut sum = Xyzv::BLACK;
-        for y in 0..frame.height_px() {
-            for x in 0..frame.width_px() {
-                let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-                sum += frame.xyzv(x, y) * setting.camera.pixel_solid_angle_sr(pixel);
-            }
-        }
+        let sum = illuminance(&frame, &setting.camera);
         // In totality the Sun has the light of its corona, as far as it is not hidden, and no other.
         let expected = night.body(Body::Sun).ok_or("no Sun")?.ground;
         let off = sum.y / expected.y - 1.0;

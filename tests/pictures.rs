@@ -15,7 +15,7 @@ use nocturne::plan::disc::Disc;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
 use nocturne::units::Xyzv;
-use support::{GpuTest, check, drawn, laid};
+use support::{GpuTest, check, drawn, illuminance, laid};
 
 /// A moonless winter night: Orion, Sirius and Jupiter high in the south.
 const NIGHT: &str = r#"
@@ -208,13 +208,7 @@ fn moon_and_sun_have_their_flux(renderer: &Renderer) -> Result<(), Failed> {
             let body = picture.objects.iter().find(|object| object.name == name);
             let body = body.ok_or("not described")?;
             check(body.x_px.is_some(), || format!("{name} is not in view: {body:?}"))?;
-            let mut sum = 0.0;
-            for y in 0..frame.height_px() {
-                for x in 0..frame.width_px() {
-                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-                    sum += frame.xyzv(x, y).y * setting.camera.pixel_solid_angle_sr(pixel);
-                }
-            }
+            let sum = illuminance(&frame, &setting.camera).y;
             let error = sum / body.illuminance_ground_lx - 1.0;
             check(error.abs() < 0.005, || {
                 format!("{name}, {fov_deg}° on {width_px} px: off by {error:.4}")
@@ -251,13 +245,7 @@ fn globe_has_its_light(renderer: &Renderer) -> Result<(), Failed> {
             [(15.9, 256), (12.0, 256), (7.3, 256), (4.0, 256), (1.0, 256), (0.7, 700), (0.56, 2100)]
         {
             let (frame, setting, night) = drawn(renderer, &moon(utc, field_deg, width_px)?)?;
-            let mut sum = Xyzv::BLACK;
-            for y in 0..frame.height_px() {
-                for x in 0..frame.width_px() {
-                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-                    sum += frame.xyzv(x, y) * setting.camera.pixel_solid_angle_sr(pixel);
-                }
-            }
+            let sum = illuminance(&frame, &setting.camera);
             let expected = night.body(Body::Moon).ok_or("no Moon")?.ground;
             for (got, wanted) in [(sum.x, expected.x), (sum.y, expected.y), (sum.z, expected.z)] {
                 let error = got / wanted - 1.0;

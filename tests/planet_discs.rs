@@ -13,7 +13,7 @@ use nocturne::plan::disc::{Disc, SurfaceLaw};
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
 use nocturne::units::Xyzv;
-use support::{GpuTest, check, drawn, laid};
+use support::{GpuTest, check, drawn, illuminance, laid};
 
 /// Flagstaff by night and by day alike: the air is not lit.
 const SCENE: &str = r#"
@@ -100,13 +100,7 @@ fn planets_have_their_light(renderer: &Renderer) -> Result<(), Failed> {
             // Large ones in one colour: a software driver takes its time.
             let scene = scene(body, date, across_px, across_px > 100.0)?;
             let (frame, setting, night) = drawn(renderer, &scene)?;
-            let mut sum = Xyzv::BLACK;
-            for y in 0..frame.height_px() {
-                for x in 0..frame.width_px() {
-                    let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-                    sum += frame.xyzv(x, y) * setting.camera.pixel_solid_angle_sr(pixel);
-                }
-            }
+            let sum = illuminance(&frame, &setting.camera);
             // Through the air, at its middle. The moons of Jupiter, of a thousandth each, may be in the sum.
             let expected = night.body(body).ok_or("no planet")?.ground;
             println!("{body} {date} {across_px}: {:.5}", sum.y / expected.y - 1.0);

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::plan::disc::{Disc, SurfaceLaw};
 use crate::plan::globe::SeenGlobe;
 
-use super::globe::{GlobePass, lattice_indices};
+use super::globe::GlobePass;
 use super::gpu::Gpu;
 use super::shaders;
 use super::target::Target;
@@ -117,4 +117,18 @@ impl DiscPass {
             pass.draw_indexed(0..count, 0, 0..bands);
         });
     }
+}
+
+/// Two triangles for each square of a lattice of corners, which are numbered row by row.
+fn lattice_indices(columns: u32, rows: u32) -> Vec<u32> {
+    let corner = |column: u32, row: u32| row * (columns + 1) + column;
+    let mut indices = Vec::with_capacity(6 * (columns * rows) as usize);
+    for row in 0..rows {
+        for column in 0..columns {
+            let [a, b] = [corner(column, row), corner(column + 1, row)];
+            let [c, d] = [corner(column, row + 1), corner(column + 1, row + 1)];
+            indices.extend([a, b, c, c, b, d]);
+        }
+    }
+    indices
 }

@@ -214,20 +214,6 @@ impl GlobePass {
     }
 }
 
-/// Two triangles for each square of a lattice of corners, which are numbered row by row.
-pub fn lattice_indices(columns: u32, rows: u32) -> Vec<u32> {
-    let corner = |column: u32, row: u32| row * (columns + 1) + column;
-    let mut indices = Vec::with_capacity(6 * (columns * rows) as usize);
-    for row in 0..rows {
-        for column in 0..columns {
-            let [a, b] = [corner(column, row), corner(column + 1, row)];
-            let [c, d] = [corner(column, row + 1), corner(column + 1, row + 1)];
-            indices.extend([a, b, c, c, b, d]);
-        }
-    }
-    indices
-}
-
 fn storage(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
     gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE)
 }

@@ -265,10 +265,8 @@ impl DiscUniform {
     pub fn of(disc: &Disc) -> Self {
         let shape = &disc.shape;
         let pixel = |p: [f64; 2]| p.map(|v| v as f32);
-        let first_px = match disc.globe {
-            Some(_) => GlobeTiles::of(disc).first_px,
-            None => disc.bounds_px[0],
-        };
+        let tiles = disc.globe.as_ref().map(|globe| (globe, GlobeTiles::of(disc)));
+        let first_px = tiles.as_ref().map_or(disc.bounds_px[0], |(_, tiles)| tiles.first_px);
         let law = match &shape.law {
             SurfaceLaw::Sun { .. } => 0.0,
             // A Moon that shows a disc is a globe, whose own picture is what is drawn.
@@ -284,10 +282,10 @@ impl DiscUniform {
         let sin_radius = shape.angular_radius.sin();
         let north = disc.globe.as_ref().map_or(Angle::ZERO, |globe| globe.north);
         let (sin_north, cos_north) = north.sin_cos();
-        let samples = match &disc.globe {
-            Some(globe) => {
-                let GlobeTiles { edge_px, columns, .. } = GlobeTiles::of(disc);
-                [edge_px, columns, globe.fineness(), u32::from(disc.is_cut_by_horizon)]
+        let samples = match &tiles {
+            Some((globe, tiles)) => {
+                let is_cut = u32::from(disc.is_cut_by_horizon);
+                [tiles.edge_px, tiles.columns, globe.fineness(), is_cut]
             }
             None => {
                 let [inside, edge] = disc.samples;

@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 use libtest_mimic::{Arguments, Failed, Trial};
+use nocturne::camera::Camera;
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::image::HdrFrame;
@@ -14,6 +15,7 @@ use nocturne::plan::ledger::Ledger;
 use nocturne::render::Renderer;
 use nocturne::scene::{Scene, Setting};
 use nocturne::sky::SkyState;
+use nocturne::units::Xyzv;
 
 type Draws = dyn Fn(&Renderer) -> Result<(), Failed> + Send;
 
@@ -79,4 +81,16 @@ pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed
 pub fn drawn(renderer: &Renderer, scene: &Scene) -> Result<(HdrFrame, Setting, Night), Failed> {
     let (plan, _, setting, night) = laid(scene)?;
     Ok((renderer.frame(&plan)?.frame, setting, night))
+}
+
+/// All the light of a frame, lux on a plane that faces each pixel.
+pub fn illuminance(frame: &HdrFrame, camera: &Camera) -> Xyzv {
+    let mut sum = Xyzv::BLACK;
+    for y in 0..frame.height_px() {
+        for x in 0..frame.width_px() {
+            let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            sum += frame.xyzv(x, y) * camera.pixel_solid_angle_sr(pixel);
+        }
+    }
+    sum
 }
