@@ -271,6 +271,22 @@ impl Camera {
             && (0.0..f64::from(self.height_px)).contains(&y)
     }
 
+    /// The largest angle from the line of sight of what falls on the picture, or beside it by no more
+    /// than some pixels.
+    pub fn reach(&self, beside_px: f64) -> Angle {
+        let edge = |px: u32| (f64::from(px) / 2.0 + beside_px) / self.focal_px();
+        let (x, y) = (edge(self.width_px), edge(self.height_px));
+        Angle::from_rad(match self.projection {
+            Projection::Equirectangular => {
+                let (across, up) = (x.min(PI).cos(), y.min(PI / 2.0).cos());
+                // Behind the camera the level is farthest from the line of sight.
+                let farthest = if across < 0.0 { across } else { across * up };
+                farthest.acos()
+            }
+            azimuthal => azimuthal.theta_from_radius(x.hypot(y)).unwrap_or(PI),
+        })
+    }
+
     /// How far the picture repeats to the right, pixels: a full turn of an equirectangular one.
     pub fn wrap_px(&self) -> Option<f64> {
         (self.projection == Projection::Equirectangular).then(|| TAU * self.focal_px())
@@ -317,6 +333,27 @@ mod tests {
                     let off = (back[0] - pixel[0]).hypot(back[1] - pixel[1]);
                     assert!(off < 1e-8, "{projection:?} at {fov_deg}°: {pixel:?} -> {back:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_on_the_picture_lies_within_its_reach() {
+        for projection in Projection::ALL {
+            for fov_deg in [0.05, 20.0, 120.0, 170.0] {
+                let camera = camera(projection, fov_deg);
+                let axis = Dir::from_vector(DVec3::NEG_Z);
+                let mut farthest: f64 = 0.0;
+                for step in 0..=640 {
+                    for y in [0.0, 0.25, 0.5, 1.0].map(|share| share * 360.0) {
+                        let dir = camera.view_from_pixel([f64::from(step), y]).unwrap();
+                        farthest = farthest.max(dir.separation(axis).rad());
+                    }
+                }
+                let reach = camera.reach(0.0).rad();
+                assert!(farthest <= reach + 1e-12, "{projection:?} {fov_deg}");
+                assert!(reach < farthest * 1.001, "{projection:?} {fov_deg}: {reach} {farthest}");
+                assert!(camera.reach(2.0).rad() > reach);
             }
         }
     }

@@ -3,11 +3,12 @@
 
 mod moon_surface;
 mod satellites;
+pub mod star_index;
 
 use crate::catalog::Star;
 use crate::ephemeris::apparent::{ApparentPlace, Observer};
 use crate::ephemeris::moon_orientation::Libration;
-use crate::ephemeris::stars::StarReduction;
+use crate::ephemeris::stars::{SpaceMotion, StarReduction};
 use crate::ephemeris::{
     Body, Ephemeris, EphemerisError, Galilean, Observation, Seen, Tier, Tolerance, north_pole,
 };
@@ -132,6 +133,11 @@ impl SkyState {
     /// Where the stars stand: proper motion, parallax, aberration; no air.
     pub fn stars(&self, stars: &[Star]) -> Vec<Dir<Horizon>> {
         self.stars.horizon_all(stars)
+    }
+
+    /// Where one star stands, likewise.
+    pub fn star(&self, star: impl Into<SpaceMotion>) -> Dir<Horizon> {
+        self.stars.horizon(star)
     }
 
     /// The state of a moon of Jupiter.

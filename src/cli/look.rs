@@ -46,7 +46,7 @@ impl std::str::FromStr for Look {
 /// The direction of an object that stands above the horizon.
 pub fn towards(name: &str, night: &Night) -> Result<Dir<Apparent>, CliError> {
     let (apparent, label) = match (night.find(name), night.moon_feature(name)) {
-        (Some(object), _) => (object.apparent, night.label(object)),
+        (Some(object), _) => (object.apparent, night.label(&object)),
         (None, Some(feature)) => (night.on_moon(feature).1, feature.name.clone()),
         (None, None) => {
             return Err(CliError::Usage(format!(

@@ -11,7 +11,7 @@ use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::earth_shadow::Danjon;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::place::Place;
-use crate::units::Angle;
+use crate::units::{Angle, Magnitude};
 
 use super::WhereArgs;
 use super::error::CliError;
@@ -88,10 +88,6 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         catalogs,
     )?;
     let query = args.query.to_lowercase();
-    let is_called = |object: &LitObject| {
-        let names = [night.label(object), number(object, &night), designation(object, &night)];
-        names.iter().any(|name| name.to_lowercase().contains(&query))
-    };
     let features: Vec<&MoonFeature> = match query.is_empty() {
         true => Vec::new(),
         false => {
@@ -99,7 +95,8 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
             night.moon_features.iter().filter(is_named).collect()
         }
     };
-    if features.is_empty() && !night.objects.iter().any(is_called) {
+    let found = called(&query, &night);
+    if features.is_empty() && found.is_empty() {
         return Err(CliError::Usage(format!(
             "nothing called '{}'; `nocturne objects` without a name lists all",
             args.query
@@ -110,10 +107,23 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         true => writeln!(out, " {:>9} {:>9} {:>9} wind", "azimuth", "altitude", "seen at")?,
         false => writeln!(out)?,
     }
-    for object in &night.objects {
-        let wanted = is_called(object)
-            && args.kind.is_none_or(|kind| kind.is(object))
-            && args.magnitude_limit.is_none_or(|limit| object.magnitude.0 <= limit)
+    for object in found {
+        // A star is lit only if its magnitude and its kind are wanted.
+        let is_asked_for =
+            |magnitude: Magnitude| args.magnitude_limit.is_none_or(|limit| magnitude.0 <= limit);
+        let object = match object {
+            Called::Near(object) => object.clone(),
+            Called::Star(index) => {
+                let is_kind = args.kind.is_none_or(|kind| kind == KindArg::Star);
+                if !is_kind || !is_asked_for(night.stars[index].magnitude) {
+                    continue;
+                }
+                night.star(index)
+            }
+        };
+        let object = &object;
+        let wanted = args.kind.is_none_or(|kind| kind.is(object))
+            && is_asked_for(object.magnitude)
             && (!args.up || object.apparent.altitude() >= night.horizon);
         if !wanted {
             continue;
@@ -154,6 +164,24 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         writeln!(out)?;
     }
     Ok(())
+}
+
+/// What goes by a part of a name.
+enum Called<'n> {
+    Near(&'n LitObject),
+    /// Not lit yet.
+    Star(usize),
+}
+
+/// Everything whose name, number or designation has the query in it; the stars are not lit for it.
+fn called<'n>(query: &str, night: &'n Night) -> Vec<Called<'n>> {
+    let matches = |name: &str| name.to_lowercase().contains(query);
+    let near = night.objects.iter().filter(|object| matches(&night.label(object)));
+    let stars = night.stars.iter().enumerate().filter(|(_, star)| {
+        star.name.iter().chain(&star.designation).any(|name| matches(name))
+            || matches(&format!("HR {}", star.hr))
+    });
+    near.map(Called::Near).chain(stars.map(|(index, _)| Called::Star(index))).collect()
 }
 
 fn number(object: &LitObject, night: &Night) -> String {

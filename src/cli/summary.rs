@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::ephemeris::Body;
+use crate::frame::Dir;
 use crate::light::night::{Kind, LitObject, Night};
 use crate::plan::ledger::Ledger;
 use crate::scene::Setting;
@@ -113,12 +114,17 @@ fn write_stars(
     night: &Night,
     ledger: Option<&Ledger>,
 ) -> io::Result<()> {
-    let mut stars: Vec<&LitObject> = night
-        .objects
-        .iter()
-        .filter(|object| matches!(object.kind, Kind::Star(_)) && in_view(object, setting))
-        .collect();
-    stars.sort_by(|a, b| a.magnitude.0.total_cmp(&b.magnitude.0));
+    let camera = &setting.camera;
+    let centre = Dir::from_azimuth_altitude(camera.azimuth, camera.altitude);
+    let mut stars = night.stars_in(centre, camera.reach(0.0), None);
+    stars.retain(|star| in_view(star, setting));
+    let number = |star: &LitObject| match star.kind {
+        Kind::Star(number) => number,
+        Kind::Body(_) | Kind::Satellite(_) => 0,
+    };
+    stars.sort_by(|a, b| {
+        a.magnitude.0.total_cmp(&b.magnitude.0).then_with(|| number(a).cmp(&number(b)))
+    });
     let brightest: Vec<String> = stars
         .iter()
         .take(NAMED_STARS)

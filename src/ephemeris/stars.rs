@@ -101,6 +101,11 @@ impl SpaceMotion {
         Dir::from_vector(self.dir + self.per_year * julian_years(tdb))
     }
 
+    /// Speed per Julian year, in units of the star's distance: along the line of sight and across it.
+    pub fn speed_per_year(&self) -> f64 {
+        self.per_year.length()
+    }
+
     /// How far off the catalogue may put the star at a date: its rounding and its proper motions.
     ///
     /// Zero for the milliarcsecond astrometry of [`Astrometry`], whose numbers are taken as they are.

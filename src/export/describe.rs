@@ -213,7 +213,10 @@ impl Description {
                 height_px: camera.height_px,
                 focal_px: camera.focal_px(),
             },
-            objects: night.objects.iter().map(described).collect(),
+            objects: {
+                let near = night.objects.iter().map(described);
+                near.chain(night.lit_stars().map(|star| described(&star))).collect()
+            },
             moon_features: described_features(setting, night),
         }
     }

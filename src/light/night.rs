@@ -1,11 +1,13 @@
 //! Everything in the sky that is drawn as itself: where it stands, where it is seen, how bright.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+use rayon::prelude::*;
 
 use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
-use crate::catalog::{MoonFeature, Star};
+use crate::catalog::MoonFeature;
 use crate::ephemeris::{Body, Galilean};
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::disc_light::{point_light, visible_light};
@@ -18,12 +20,16 @@ use crate::light::solar_eclipse::CoveredSun;
 use crate::light::spectrum::{Spectrum, Transmittance};
 use crate::light::star_light::StarLight;
 use crate::light::sun;
+use crate::sky::star_index::{StarIndex, folded};
 use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState, SurfacePoint};
 use crate::units::{AU_KM, Angle, Illuminance, Magnitude, Xyzv};
 
 /// How good the direction of a star of the Yale catalogue is: it gives right ascensions to 0.1 s
 /// and declinations to 1 arcsecond, in the FK5.
 pub const STAR_ERROR_BOUND: Angle = Angle::from_arcsec(3.0);
+
+/// Days in a Julian year, which proper motions count.
+const JULIAN_YEAR_DAYS: f64 = 365.25;
 
 /// What an object is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,13 +69,39 @@ pub struct Night {
     pub refraction: Refraction,
     /// Apparent altitude of the horizon of the ground around.
     pub horizon: Angle,
-    /// Sun, Moon, planets, moons of Jupiter, then the stars in the order of the catalogue.
+    /// Sun, Moon, planets, moons of Jupiter. Stars are lit when they are asked for.
     pub objects: Vec<LitObject>,
-    pub stars: Vec<Star>,
+    /// The stars in the order of the catalogue, to be found by where they stand.
+    pub stars: StarIndex,
+    /// What arrives of the light of stars, made when the first is lit.
+    starlight: Arc<OnceLock<StarLight>>,
     /// Places on the Moon that have a name, if somebody [gave](Night::with_moon_features) them.
     pub moon_features: Vec<MoonFeature>,
     /// What an eclipse takes from the Sun and the Moon.
     pub eclipse: Eclipsed,
+}
+
+/// Which stars are wanted: those that may be seen within a cone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StarSearch {
+    /// Middle of the cone, as seen.
+    pub centre: Dir<Apparent>,
+    pub radius: Angle,
+    /// Nobody asks for fainter ones, wherever they stand.
+    pub limit: Option<Magnitude>,
+    /// Fainter ones cannot be told from the sky.
+    pub drowned: Option<Magnitude>,
+}
+
+/// The stars of a search, and how many were not touched.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StarsFound {
+    /// Above the horizon, within the cone or beside it by less than a cell and refraction.
+    pub stars: Vec<LitObject>,
+    pub fainter_than_limit: usize,
+    pub below_horizon: usize,
+    pub out_of_view: usize,
+    pub drowned: usize,
 }
 
 /// What stands in the way of sunlight: the Moon before the Sun, the Earth before the Moon. Outside
@@ -107,12 +139,17 @@ impl Eclipsed {
 impl Night {
     /// Lights the sky. The stars are those of the catalogue; an eclipse of the Moon is as dark as
     /// most are.
-    pub fn of(sky: SkyState, stars: Vec<Star>, air: &Atmosphere) -> Night {
+    pub fn of(sky: SkyState, stars: impl Into<StarIndex>, air: &Atmosphere) -> Night {
         Night::with_danjon(sky, stars, air, Danjon::default())
     }
 
     /// The same, with a number that says how dark an eclipse of the Moon is.
-    pub fn with_danjon(sky: SkyState, stars: Vec<Star>, air: &Atmosphere, danjon: Danjon) -> Night {
+    pub fn with_danjon(
+        sky: SkyState,
+        stars: impl Into<StarIndex>,
+        air: &Atmosphere,
+        danjon: Danjon,
+    ) -> Night {
         let eclipse = Eclipsed::of(&sky, air, danjon);
         let height_m = sky.place.height_m;
         let refraction = air.refraction_at(height_m);
@@ -160,36 +197,130 @@ impl Night {
             }
         }));
 
-        let starlight = StarLight::new(air, height_m);
-        let directions = sky.stars(&stars);
-        objects.extend(stars.iter().zip(directions).enumerate().map(|(index, (star, dir))| {
-            let apparent = refraction.apparent_from_horizon(dir);
-            let outside = star.magnitude.illuminance();
-            let altitude = apparent.altitude();
-            let ground = if altitude < horizon {
-                Xyzv::BLACK
-            } else {
-                starlight.at_eye(star.b_v, altitude, outside) * refraction.divergence(altitude)
-            };
-            LitObject {
-                kind: Kind::Star(index),
-                dir,
-                apparent,
-                error_bound: STAR_ERROR_BOUND,
-                magnitude: star.magnitude,
-                outside,
-                ground,
-            }
-        }));
         Night {
             sky,
             air: air.clone(),
             refraction,
             horizon,
             objects,
-            stars,
+            stars: stars.into(),
+            starlight: Arc::default(),
             eclipse,
             moon_features: Vec::new(),
+        }
+    }
+
+    /// The same night with what a night before has made of the light of stars, if the air and the
+    /// height of the place are the same.
+    pub fn keeping_starlight_of(self, before: &Night) -> Night {
+        let is_same = self.air == before.air
+            && self.sky.place.height_m.to_bits() == before.sky.place.height_m.to_bits();
+        let starlight = if is_same { before.starlight.clone() } else { self.starlight };
+        Night { starlight, ..self }
+    }
+
+    /// What arrives of the light of stars here.
+    pub fn starlight(&self) -> &StarLight {
+        self.starlight.get_or_init(|| StarLight::new(&self.air, self.sky.place.height_m))
+    }
+
+    /// A star by its place in [`Night::stars`], which is less than their number.
+    pub fn star(&self, index: usize) -> LitObject {
+        self.lit(index, self.sky.star(&self.stars[index]))
+    }
+
+    /// All stars, lit one by one, in the order of the catalogue.
+    pub fn lit_stars(&self) -> impl Iterator<Item = LitObject> {
+        (0..self.stars.len()).map(|index| self.star(index))
+    }
+
+    /// The stars above the horizon within a cone around an apparent direction, lit; those in reach
+    /// are found without touching the others. Cell by cell, the brightest of each first.
+    pub fn stars_in(
+        &self,
+        centre: Dir<Apparent>,
+        radius: Angle,
+        faintest: Option<Magnitude>,
+    ) -> Vec<LitObject> {
+        let search = StarSearch { centre, radius, limit: faintest, drowned: None };
+        let mut stars = self.search_stars(&search).stars;
+        stars.retain(|star| star.apparent.separation(centre) <= radius);
+        stars
+    }
+
+    /// The same, somewhat beyond the edge of the cone, with an account of the stars left alone.
+    pub fn search_stars(&self, search: &StarSearch) -> StarsFound {
+        let mut found = StarsFound::default();
+        let mut wanted = Vec::new();
+        let years = self.sky.instant.tdb.days_since_j2000() / JULIAN_YEAR_DAYS;
+        let lowest = self.refraction.true_from_apparent(self.horizon);
+        // What is above the horizon stands lower than it is seen, by no more than at the horizon.
+        let reach = search.radius + (self.horizon - lowest).max(Angle::ZERO);
+        let beyond = |a: Angle, b: Angle| (a + b).rad().min(std::f64::consts::PI).cos();
+        let below = Angle::from_deg(90.0) - lowest;
+        for cell in self.stars.cells() {
+            let asked = self.stars.bright(cell, search.limit);
+            found.fainter_than_limit += cell.len() - asked;
+            let dir = (self.sky.horizon_from_icrs * cell.axis()).vector();
+            let radius = cell.radius(years);
+            if dir.dot(search.centre.vector()) < beyond(reach, radius) {
+                found.out_of_view += asked;
+            } else if dir.z < beyond(below, radius) {
+                found.below_horizon += asked;
+            } else {
+                let bright = self.stars.bright(cell, search.drowned).min(asked);
+                found.drowned += asked - bright;
+                wanted.extend(self.stars.brightest(cell, bright));
+            }
+        }
+        if wanted.is_empty() {
+            return found;
+        }
+        let reach_cos = beyond(reach, Angle::ZERO);
+        let low_sin = lowest.sin();
+        let seen: Vec<Result<LitObject, bool>> = wanted
+            .par_iter()
+            .with_min_len(256)
+            .map(|&(index, motion)| {
+                let dir = self.sky.star(motion);
+                let is_in_view = dir.vector().dot(search.centre.vector()) >= reach_cos;
+                match is_in_view && dir.vector().z >= low_sin {
+                    true => Ok(self.lit(index, dir)),
+                    false => Err(is_in_view),
+                }
+            })
+            .collect();
+        found.stars.reserve(seen.len());
+        for star in seen {
+            match star {
+                Ok(star) => found.stars.push(star),
+                Err(is_in_view) if is_in_view => found.below_horizon += 1,
+                Err(_) => found.out_of_view += 1,
+            }
+        }
+        found
+    }
+
+    /// A star that stands in a direction.
+    fn lit(&self, index: usize, dir: Dir<Horizon>) -> LitObject {
+        let star = &self.stars[index];
+        let apparent = self.refraction.apparent_from_horizon(dir);
+        let outside = star.magnitude.illuminance();
+        let altitude = apparent.altitude();
+        let ground = if altitude < self.horizon {
+            Xyzv::BLACK
+        } else {
+            self.starlight().at_eye(star.b_v, altitude, outside)
+                * self.refraction.divergence(altitude)
+        };
+        LitObject {
+            kind: Kind::Star(index),
+            dir,
+            apparent,
+            error_bound: STAR_ERROR_BOUND,
+            magnitude: star.magnitude,
+            outside,
+            ground,
         }
     }
 
@@ -258,18 +389,15 @@ impl Night {
     }
 
     /// An object by name: `Moon`, `Sirius`, `α CMa`, `61 Cyg`, `HR 2491`, `HIP 32349`.
-    pub fn find(&self, name: &str) -> Option<&LitObject> {
+    pub fn find(&self, name: &str) -> Option<LitObject> {
         let wanted = folded(name);
-        self.objects.iter().find(|object| match object.kind {
+        let is_it = |object: &&LitObject| match object.kind {
             Kind::Body(body) => folded(body.name()) == wanted,
             Kind::Satellite(satellite) => folded(satellite.name()) == wanted,
-            Kind::Star(index) => {
-                let star = &self.stars[index];
-                let names = star.name.iter().chain(&star.designation).map(|name| folded(name));
-                let hip = star.hip.map(|hip| format!("hip{hip}"));
-                names.chain([format!("hr{}", star.hr)]).chain(hip).any(|known| known == wanted)
-            }
-        })
+            Kind::Star(_) => false,
+        };
+        let near = self.objects.iter().find(is_it).cloned();
+        near.or_else(|| self.stars.find(name).map(|index| self.star(index)))
     }
 }
 
@@ -331,9 +459,4 @@ fn moon_view(sky: &SkyState) -> MoonView {
         sun_distance_km: moon.state.sun_distance_km,
         observer_distance_km: moon.state.distance_km,
     }
-}
-
-/// A name without the differences that people do not mean.
-fn folded(name: &str) -> String {
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
 }

@@ -5,11 +5,11 @@ use crate::catalog::{CatalogError, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
 use crate::light::moon::Reflectance;
-use crate::light::night::{Kind, LitObject, Night};
+use crate::light::night::{Kind, LitObject, Night, StarSearch};
 use crate::scene::{Layers, Setting};
 use crate::sky::BodyState;
 use crate::store::Store;
-use crate::units::{Angle, Xyzv};
+use crate::units::{Angle, Illuminance, Magnitude, Xyzv};
 
 use super::body::SeenBody;
 use super::classic::ClassicLight;
@@ -126,7 +126,66 @@ pub fn lay_in(
             Laid::Not(reason) => ledger.skip(layer, reason),
         }
     }
+    lay_stars(layers, night, &mut plan, &mut ledger);
     Ok((plan, ledger))
+}
+
+/// Lays the stars that can be told from the sky, and accounts for all others.
+fn lay_stars(layers: &Layers, night: &Night, plan: &mut FramePlan, ledger: &mut Ledger) {
+    if !layers.stars {
+        return ledger.skip_many("stars", SWITCHED_OFF, night.stars.len());
+    }
+    let camera = plan.camera;
+    let found = night.search_stars(&StarSearch {
+        centre: Dir::from_azimuth_altitude(camera.azimuth, camera.altitude),
+        radius: camera.reach(SPLAT_REACH_PX),
+        limit: layers.magnitude_limit.map(Magnitude),
+        drowned: drowning_magnitude(plan),
+    });
+    for (reason, many) in [
+        (TOO_FAINT, found.fainter_than_limit),
+        (BELOW_HORIZON, found.below_horizon),
+        (OUT_OF_VIEW, found.out_of_view),
+        (OUTSHONE, found.drowned),
+    ] {
+        ledger.skip_many("stars", reason, many);
+    }
+    for star in &found.stars {
+        match visible(star, layers, true, night, plan) {
+            Ok(()) if lay_point(&camera, star.apparent, star.ground, &mut plan.splats) => {
+                ledger.draw("stars");
+            }
+            Ok(()) => ledger.skip("stars", OUT_OF_VIEW),
+            Err(reason) => ledger.skip("stars", reason),
+        }
+    }
+}
+
+/// A magnitude beyond which every star drowns in the sky of the picture, wherever it stands: what
+/// the darkest of some pixels lets be seen, and [`DARKER`] less. None where there is no light.
+fn drowning_magnitude(plan: &FramePlan) -> Option<Magnitude> {
+    /// Pixels that are looked at, along each edge of the picture.
+    const ACROSS: u32 = 9;
+    /// How much darker than the darkest of them any other may be.
+    const DARKER: f64 = 4.0;
+    let camera = &plan.camera;
+    let apparent_from_view = camera.view_from_apparent().inverse();
+    let at = |step: u32, edge: u32| f64::from(step) / f64::from(ACROSS - 1) * f64::from(edge);
+    let mut darkest_lx = f64::INFINITY;
+    for step in 0..ACROSS * ACROSS {
+        let (x, y) = (step % ACROSS, step / ACROSS);
+        let pixel = [at(x, camera.width_px), at(y, camera.height_px)];
+        let Some(view) = camera.view_from_pixel(pixel) else { continue };
+        let apparent = apparent_from_view * view;
+        if apparent.altitude() < plan.sky.horizon {
+            continue;
+        }
+        let behind_lx = plan.sky.luminance(apparent).y * camera.pixel_solid_angle_sr(pixel);
+        darkest_lx = darkest_lx.min(behind_lx);
+    }
+    let faintest_lx = DROWNED * darkest_lx / (SPLAT_PEAK * DARKER);
+    let is_lit = faintest_lx > 0.0 && faintest_lx.is_finite();
+    is_lit.then(|| Illuminance::from_lx(faintest_lx).magnitude())
 }
 
 fn lay_sky(

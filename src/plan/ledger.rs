@@ -30,10 +30,16 @@ impl Ledger {
 
     /// Notes that something of a layer is not drawn.
     pub fn skip(&mut self, layer: &'static str, reason: &'static str) {
+        self.skip_many(layer, reason, 1);
+    }
+
+    /// The same for many things at once; nothing is noted of none.
+    pub fn skip_many(&mut self, layer: &'static str, reason: &'static str, many: usize) {
         let skipped = &mut self.entry(layer).skipped;
         match skipped.iter_mut().find(|(known, _)| *known == reason) {
-            Some((_, count)) => *count += 1,
-            None => skipped.push((reason, 1)),
+            Some((_, count)) => *count += many,
+            None if many == 0 => {}
+            None => skipped.push((reason, many)),
         }
     }
 
