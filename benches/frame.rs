@@ -13,7 +13,7 @@ use std::time::Instant as Clock;
 use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
-use nocturne::catalog::{Catalogs, MoonMaps};
+use nocturne::catalog::{Catalogs, MoonMaps, Star};
 use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::Dir;
@@ -28,8 +28,9 @@ use nocturne::render::Renderer;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
+use nocturne::sky::star_index::StarIndex;
 use nocturne::store::Store;
-use nocturne::units::{AU_KM, Angle};
+use nocturne::units::{AU_KM, Angle, Magnitude};
 
 /// Flagstaff, by new Moon, by full Moon, and in the forenoon; UTC.
 const SKIES: [(&str, &str); 3] = [
@@ -104,11 +105,86 @@ fn main() -> Result<(), Box<dyn Error>> {
         let frame = renderer.frame(night)?.frame;
         line("Eye::see", "CPU", see_ms(&frame));
     }
+    println!("Stars, 1920x1080, tables kept");
+    stars(&renderer, &catalogs)?;
     for (phase, utc, field_deg) in MOONS {
         println!("The Moon, {phase}, in a field of {field_deg}°, 1920x1080");
         moon(&renderer, utc, field_deg, &catalogs, &moon_maps)?;
     }
     Ok(())
+}
+
+/// What stars add to a frame: light, lay and splats, by what is in view.
+fn stars(renderer: &Renderer, catalogs: &Catalogs) -> Result<(), Box<dyn Error>> {
+    let air = Atmosphere::default();
+    let bright = catalogs.stars()?;
+    // All of them in one field of 90 degrees: right ascensions and polar distances drawn together.
+    let crowded: Vec<Star> = bright.iter().map(crowd).collect();
+    // Nine more of each star, turned about the pole, fainter by 2.5 magnitudes.
+    let many: Vec<Star> =
+        (0..10).flat_map(|turn| bright.iter().map(move |s| turned(s, turn))).collect();
+    let mut setting = setting("2026-08-13T04:30:00Z", 1920, 1080)?;
+    setting.camera.field_of_view = Angle::from_deg(90.0);
+    let north = Camera { azimuth: Angle::ZERO, altitude: Angle::from_deg(35.2), ..setting.camera };
+    let down = Camera { altitude: Angle::from_deg(-80.0), ..setting.camera };
+    let narrow = Camera { field_of_view: Angle::from_deg(2.0), ..setting.camera };
+    let sky = SkyState::at(
+        &Ephemeris::load(catalogs, setting.tolerance)?,
+        &setting.instant,
+        &setting.place,
+        setting.tolerance,
+    )?;
+    let mut kept = Kept::new(Store::NONE);
+    println!("  catalogue, field               in view   light and lay   splat pass   together");
+    for (name, stars, camera, limit) in [
+        ("9096, all in one field", &crowded, north, None),
+        ("9096, 90°", &bright, setting.camera, None),
+        ("9096, none in view", &bright, down, None),
+        ("9096, 2°", &bright, narrow, None),
+        ("90 960, 90° to 6.5 mag", &many, setting.camera, Some(6.5)),
+        ("90 960, 90°", &many, setting.camera, None),
+        ("90 960, none in view", &many, down, None),
+        ("90 960, 2°", &many, narrow, None),
+    ] {
+        setting.camera = camera;
+        let night = Night::of(sky.clone(), stars.clone(), &air);
+        let layers = Layers { magnitude_limit: limit, ..Layers::default() };
+        let without = Layers { stars: false, ..layers.clone() };
+        let no_moon = || Err(nocturne::catalog::CatalogError::NoSource { file: "moon" });
+        let (plan, ledger) = lay_in(&setting, &layers, &night, no_moon, &mut kept)?;
+        let mut lay = |layers: &Layers| {
+            median_ms(FRAMES, || lay_in(&setting, layers, &night, no_moon, &mut kept))
+        };
+        let lay_ms = lay(&layers) - lay(&without);
+        let splats = plan.splats.clone();
+        let pass_ms = match splats.is_empty() {
+            true => 0.0,
+            false => passes(renderer, &FramePlan { splats, ..empty(camera) })?.of("splats"),
+        };
+        let drawn = ledger.of("stars").map_or(0, |entry| entry.drawn);
+        let both_ms = lay_ms + pass_ms;
+        println!("  {name:28} {drawn:9} {lay_ms:12.2} ms {pass_ms:9.2} ms {both_ms:7.2} ms");
+        setting.camera = Camera { field_of_view: Angle::from_deg(90.0), ..narrow };
+    }
+    Ok(())
+}
+
+/// A star drawn towards the pole, so that a whole catalogue stands within 35 degrees of it.
+fn crowd(star: &Star) -> Star {
+    let from_pole = 90.0 - star.dir_j2000.latitude().deg();
+    let latitude = Angle::from_deg(90.0 - from_pole * 26.0 / 180.0);
+    Star { dir_j2000: Dir::from_spherical(star.dir_j2000.longitude(), latitude), ..star.clone() }
+}
+
+/// A star turned about the pole by some tenths of a turn, fainter unless it is where it was.
+fn turned(star: &Star, tenths: u8) -> Star {
+    let longitude = star.dir_j2000.longitude() + Angle::from_deg(36.0 * f64::from(tenths));
+    let fainter = if tenths == 0 { 0.0 } else { 2.5 };
+    Star {
+        dir_j2000: Dir::from_spherical(longitude, star.dir_j2000.latitude()),
+        magnitude: Magnitude(star.magnitude.0 + fainter),
+        ..star.clone()
+    }
 }
 
 /// The Moon alone in the middle of a picture.
@@ -176,7 +252,7 @@ fn computations() {
         println!("  moving the Sun to {sun_deg:3}° {:6.1}", median_ms(SLOW, moved));
     }
     let starlight = || StarLight::new(&Atmosphere::default(), 0.0);
-    println!("  StarLight::new {:19.1}", median_ms(SLOW, starlight));
+    println!("  StarLight::new {:19.2}", median_ms(SLOW, starlight));
 }
 
 /// Lays a night or a day, and prints what that takes.
@@ -190,7 +266,7 @@ fn plan(
     let setting = setting(utc, width_px, height_px)?;
     let layers = Layers::default();
     let air = Atmosphere::default();
-    let stars = catalogs.stars()?;
+    let stars = StarIndex::new(catalogs.stars()?);
     let sky = SkyState::at(
         &Ephemeris::load(catalogs, setting.tolerance)?,
         &setting.instant,

@@ -7,15 +7,15 @@ use std::error::Error;
 use nocturne::air::Atmosphere;
 use nocturne::air::extinction::{air_masses, transmittance};
 use nocturne::catalog::Catalogs;
-use nocturne::light::star_colour;
+use nocturne::light::star_spectrum;
 use nocturne::units::{Angle, Illuminance};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let stars = Catalogs::locate(None)?.stars()?;
     let is_sirius = |name: &Option<String>| name.as_deref() == Some("Sirius");
     let sirius = stars.iter().find(|star| is_sirius(&star.name)).ok_or("no Sirius")?;
-    // A spectrum, W m-2 nm-1, with the illuminance of its magnitude and the shape of its colour.
-    let light = star_colour::star(sirius.magnitude, sirius.b_v);
+    // A spectrum, W m-2 nm-1, with the illuminance of its magnitude and the shape of its type.
+    let light = star_spectrum::star(sirius);
     println!("Outside the air: V = {:.2}, {:.3} microlux", sirius.magnitude.0, light.xyzv.y * 1e6);
 
     let (air, height_m) = (Atmosphere::default(), 0.0);

@@ -129,6 +129,7 @@ impl Studio {
             layers: Layers::default(),
             air: self.air.clone(),
             sky: None,
+            scintillation: None,
             moon: SceneMoon::default(),
             eye: Eye::default(),
             marks: Marks { horizon: false, cardinal_points: false },

@@ -28,6 +28,7 @@ mod rice;
 mod seal;
 pub mod stars;
 
+pub use colour::{Luminosity, spectral_class};
 pub use hipparcos::Astrometry;
 pub use moon::{HapkeCell, MoonHapke, MoonMap, MoonRelief};
 pub use moon_features::MoonFeature;

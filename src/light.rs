@@ -19,10 +19,12 @@ pub mod planets;
 pub mod point_light;
 pub mod satellites;
 pub mod saturn_rings;
+pub mod scintillation;
 pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
+pub mod star_spectrum;
 pub mod sun;
 
 pub use point_light::PointLight;

@@ -11,6 +11,7 @@ use crate::camera::{Camera, CameraError, Projection};
 use crate::eye::Eye;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
+use crate::light::scintillation::{Scintillation, ScintillationError};
 use crate::place::{Place, PlaceError};
 use crate::time::{self, Instant, TimeError};
 use crate::units::Angle;
@@ -44,6 +45,8 @@ pub enum SceneError {
     Air(#[from] AirError),
     #[error(transparent)]
     Sky(#[from] ClassicSkyError),
+    #[error(transparent)]
+    Scintillation(#[from] ScintillationError),
 }
 
 /// A picture, described.
@@ -64,6 +67,9 @@ pub struct Scene {
     /// A classic model of the sky in place of the air solved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sky: Option<ClassicSky>,
+    /// How points of light twinkle; not at all when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scintillation: Option<Scintillation>,
     #[serde(default)]
     pub moon: SceneMoon,
     #[serde(default)]
@@ -174,6 +180,8 @@ pub struct Setting {
     pub sky: Option<ClassicSky>,
     /// How the ground of the Moon sends light back.
     pub reflectance: Reflectance,
+    /// How points of light twinkle.
+    pub scintillation: Option<Scintillation>,
 }
 
 impl Scene {
@@ -229,7 +237,9 @@ impl Scene {
             None => camera.pixel_angle() * TOLERANCE_IN_PIXELS,
         };
         let reflectance = self.moon.reflectance;
-        Ok(Setting { instant, place, camera, tolerance, sky: self.sky, reflectance })
+        let scintillation = self.scintillation.map(Scintillation::checked).transpose()?;
+        let sky = self.sky;
+        Ok(Setting { instant, place, camera, tolerance, sky, reflectance, scintillation })
     }
 
     fn check_numbers(&self) -> Result<(), SceneError> {
@@ -278,6 +288,7 @@ mod tests {
             },
             layers: Layers::default(),
             sky: None,
+            scintillation: None,
             moon: SceneMoon::default(),
             air: Atmosphere::default(),
             eye: Eye::default(),
@@ -291,6 +302,7 @@ mod tests {
         scene.layers.magnitude_limit = Some(0.1 + 0.2);
         scene.eye.adaptation_cd_m2 = Some(1e-3);
         scene.sky = Some(ClassicSky::new(ClassicModel::Preetham));
+        scene.scintillation = Some(Scintillation { seed: 3, ..Scintillation::default() });
         assert_eq!(Scene::parse(&scene.to_toml()).unwrap(), scene);
         assert!(scene.setting().is_ok());
     }
@@ -311,6 +323,9 @@ mod tests {
         let mut bad = scene();
         bad.eye.exposure_stops = f64::NAN;
         assert!(matches!(bad.setting(), Err(SceneError::Range { .. })));
+        let mut bad = scene();
+        bad.scintillation = Some(Scintillation { aperture_m: -1.0, ..Scintillation::default() });
+        assert!(matches!(bad.setting(), Err(SceneError::Scintillation(_))));
         let mut bad = scene();
         bad.place.time_zone = Some("Mars/Olympus".to_owned());
         assert!(matches!(bad.setting(), Err(SceneError::TimeZone(_))));

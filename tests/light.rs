@@ -10,6 +10,7 @@ use nocturne::air::{AIR_TOP_KM, Atmosphere, EARTH_RADIUS_KM};
 use nocturne::light::moon::{self, MoonView};
 use nocturne::light::planets::{self, Planet, PlanetView};
 use nocturne::light::star_light::StarLight;
+use nocturne::light::star_spectrum::StarShape;
 use nocturne::units::{Angle, Magnitude};
 
 /// The rows of a file in `tests/truth`, by column name.
@@ -180,7 +181,8 @@ fn bennett_agrees_with_the_bending_of_the_ray() {
 fn a_star_fades_and_reddens_as_it_sinks() {
     let starlight = StarLight::new(&Atmosphere::default(), 0.0);
     let outside = Magnitude(0.0).illuminance();
-    let at = |deg: f64| starlight.at_eye(0.0, Angle::from_deg(deg), outside);
+    let at =
+        |deg: f64| starlight.at_eye(StarShape::of_black_body(0.0), Angle::from_deg(deg), outside);
     // A quarter of a magnitude in the zenith and twice that at 30 degrees.
     let lost = |deg: f64| -2.5 * (at(deg).y / outside.lx()).log10();
     assert!((lost(90.0) - 0.245).abs() < 0.015, "{}", lost(90.0));

@@ -54,6 +54,7 @@ fn scene(time: &str, place: &[f64]) -> Scene {
         },
         layers: Layers::default(),
         sky: None,
+        scintillation: None,
         moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),

@@ -360,8 +360,15 @@ fn planned((instant, place, camera, mut air, layers, stars): SmallScene) -> Fram
         relief: Arc::new(MoonRelief { width, height, elevation_m: vec![0; 32] }),
         hapke: Arc::new(MoonHapke { width, height, cells: vec![[cell; 3]; 32] }),
     };
-    let setting =
-        Setting { instant, place, camera, tolerance, sky: None, reflectance: Reflectance::Hapke };
+    let setting = Setting {
+        instant,
+        place,
+        camera,
+        tolerance,
+        sky: None,
+        reflectance: Reflectance::Hapke,
+        scintillation: None,
+    };
     lay(&setting, &layers, &night, || Ok(maps)).unwrap().0
 }
 

@@ -82,8 +82,9 @@ const SUPERGIANTS: &Sequence = &[
     (65.0, 1.80),
 ];
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Luminosity {
+/// How large a star is for its temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Luminosity {
     Dwarf,
     Subgiant,
     Giant,
@@ -94,7 +95,7 @@ enum Luminosity {
 ///
 /// Of a composite type the first star counts. None for types outside O to M.
 pub(super) fn b_v_from_spectral_type(spectral_type: &str) -> Option<f64> {
-    let (class, luminosity) = parse(spectral_type)?;
+    let (class, luminosity) = spectral_class(spectral_type)?;
     let giant = |class| interpolate(if class < GIANTS[0].0 { DWARFS } else { GIANTS }, class);
     Some(match luminosity {
         Luminosity::Dwarf => interpolate(DWARFS, class),
@@ -104,7 +105,10 @@ pub(super) fn b_v_from_spectral_type(spectral_type: &str) -> Option<f64> {
     })
 }
 
-fn parse(spectral_type: &str) -> Option<(f64, Luminosity)> {
+/// The spectral class as a number (O0 is 0, B0 is 10, M9 is 69) and the luminosity class of a type as
+/// BSC5 writes it; bright giants (II) count as giants, and a type without luminosity class as what
+/// the head of this file says. None for types outside O to M.
+pub fn spectral_class(spectral_type: &str) -> Option<(f64, Luminosity)> {
     // Mount Wilson prefixes: subgiant, giant, dwarf, and c for the sharp lines of supergiants.
     let prefixes = [
         ("sg", Luminosity::Subgiant),
@@ -172,7 +176,7 @@ mod tests {
             ("F5", 35.0, Dwarf),
             ("K5", 55.0, Giant),
         ] {
-            assert_eq!(parse(written), Some((class, luminosity)), "{written}");
+            assert_eq!(spectral_class(written), Some((class, luminosity)), "{written}");
         }
         for unknown in ["", "pec", "WN7-A", "C5II", ":"] {
             assert_eq!(b_v_from_spectral_type(unknown), None, "{unknown}");

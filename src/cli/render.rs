@@ -248,6 +248,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         },
         layers: Layers::default(),
         sky: None,
+        scintillation: None,
         moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),

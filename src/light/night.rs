@@ -19,6 +19,7 @@ use crate::light::satellites;
 use crate::light::solar_eclipse::CoveredSun;
 use crate::light::spectrum::{Spectrum, Transmittance};
 use crate::light::star_light::StarLight;
+use crate::light::star_spectrum::StarShape;
 use crate::light::sun;
 use crate::sky::star_index::{StarIndex, folded};
 use crate::sky::{BodyState, RingTilt, SatelliteState, SkyState, SurfacePoint};
@@ -310,7 +311,7 @@ impl Night {
         let ground = if altitude < self.horizon {
             Xyzv::BLACK
         } else {
-            self.starlight().at_eye(star.b_v, altitude, outside)
+            self.starlight().at_eye(StarShape::of(star), altitude, outside)
                 * self.refraction.divergence(altitude)
         };
         LitObject {

@@ -51,6 +51,11 @@ impl Spectrum {
         Spectrum(std::array::from_fn(|node| per_nm(wavelength_nm(node))))
     }
 
+    /// From the values at the nodes, per nanometre.
+    pub const fn from_nodes(values: [f64; LEN]) -> Self {
+        Spectrum(values)
+    }
+
     /// From a table of (wavelength in nanometres, value per nanometre), in rising order, straight
     /// between its rows and zero outside. Lines finer than the grid keep their power.
     pub fn from_table(table: &[(f64, f64)]) -> Self {

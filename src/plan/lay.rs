@@ -109,12 +109,17 @@ pub fn lay_in(
                     Some(read) => read().map(Some),
                     None => Ok(None),
                 };
-                lay_body(&seen, surface, setting.reflectance, &mut plan, &mut kept.globe)?
+                let twinkle = twinkle(setting, night, object);
+                let law = setting.reflectance;
+                lay_body(&seen, surface, law, twinkle, &mut plan, &mut kept.globe)?
             }
-            None => match lay_point(&camera, object.apparent, object.ground, &mut plan.splats) {
-                true => Laid::Points,
-                false => Laid::Not(OUT_OF_VIEW),
-            },
+            None => {
+                let light = object.ground * twinkle(setting, night, object);
+                match lay_point(&camera, object.apparent, light, &mut plan.splats) {
+                    true => Laid::Points,
+                    false => Laid::Not(OUT_OF_VIEW),
+                }
+            }
         };
         match drawn {
             Laid::Points => ledger.draw(layer),
@@ -126,12 +131,18 @@ pub fn lay_in(
             Laid::Not(reason) => ledger.skip(layer, reason),
         }
     }
-    lay_stars(layers, night, &mut plan, &mut ledger);
+    lay_stars(setting, layers, night, &mut plan, &mut ledger);
     Ok((plan, ledger))
 }
 
 /// Lays the stars that can be told from the sky, and accounts for all others.
-fn lay_stars(layers: &Layers, night: &Night, plan: &mut FramePlan, ledger: &mut Ledger) {
+fn lay_stars(
+    setting: &Setting,
+    layers: &Layers,
+    night: &Night,
+    plan: &mut FramePlan,
+    ledger: &mut Ledger,
+) {
     if !layers.stars {
         return ledger.skip_many("stars", SWITCHED_OFF, night.stars.len());
     }
@@ -151,14 +162,33 @@ fn lay_stars(layers: &Layers, night: &Night, plan: &mut FramePlan, ledger: &mut 
         ledger.skip_many("stars", reason, many);
     }
     for star in &found.stars {
-        match visible(star, layers, true, night, plan) {
-            Ok(()) if lay_point(&camera, star.apparent, star.ground, &mut plan.splats) => {
-                ledger.draw("stars");
-            }
-            Ok(()) => ledger.skip("stars", OUT_OF_VIEW),
-            Err(reason) => ledger.skip("stars", reason),
+        if let Err(reason) = visible(star, layers, true, night, plan) {
+            ledger.skip("stars", reason);
+            continue;
+        }
+        let light = star.ground * twinkle(setting, night, star);
+        match lay_point(&camera, star.apparent, light, &mut plan.splats) {
+            true => ledger.draw("stars"),
+            false => ledger.skip("stars", OUT_OF_VIEW),
         }
     }
+}
+
+/// What the turbulence of the air makes of the light of a point; 1 if nobody asked for it.
+fn twinkle(setting: &Setting, night: &Night, object: &LitObject) -> f64 {
+    let Some(scintillation) = setting.scintillation else { return 1.0 };
+    let (id, radius) = match object.kind {
+        Kind::Body(Body::Sun | Body::Moon) => return 1.0,
+        Kind::Star(index) => (u64::from(night.stars[index].hr), Angle::ZERO),
+        Kind::Body(body) => {
+            let state = night.sky.body(body);
+            ((1 << 32) + body as u64, state.map_or(Angle::ZERO, |state| state.angular_radius))
+        }
+        Kind::Satellite(moon) => ((1 << 33) + moon as u64, Angle::ZERO),
+    };
+    let key = scintillation.key(&night.sky.instant);
+    let (altitude, height_m) = (object.apparent.altitude(), night.sky.place.height_m);
+    scintillation.factor_of_disc(id, key, altitude, height_m, radius * 2.0)
 }
 
 /// A magnitude beyond which every star drowns in the sky of the picture, wherever it stands: what
@@ -314,11 +344,12 @@ enum Laid {
     Not(&'static str),
 }
 
-/// Draws a body as a disc, or as points of light when it is small.
+/// Draws a body as a disc, or as points of light, which twinkle, when it is small.
 fn lay_body(
     seen: &SeenBody,
     moon: impl FnOnce() -> Result<Option<MoonMaps>, CatalogError>,
     law: Reflectance,
+    twinkle: f64,
     plan: &mut FramePlan,
     kept: &mut KeptGlobe,
 ) -> Result<Laid, PlanError> {
@@ -327,7 +358,8 @@ fn lay_body(
         if seen.is_below_horizon() {
             return Ok(Laid::Not(BELOW_HORIZON));
         }
-        let any = lay_point(&plan.camera, seen.apparent(), seen.light(), &mut plan.splats);
+        let light = seen.light() * twinkle;
+        let any = lay_point(&plan.camera, seen.apparent(), light, &mut plan.splats);
         return Ok(points(any));
     }
     let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
@@ -337,7 +369,7 @@ fn lay_body(
         let shape = seen.shape(surface.as_ref());
         let mut any = false;
         for (apparent, light) in seen.points(&shape, &air) {
-            any |= lay_point(&plan.camera, apparent, light, &mut plan.splats);
+            any |= lay_point(&plan.camera, apparent, light * twinkle, &mut plan.splats);
         }
         return Ok(points(any));
     }
