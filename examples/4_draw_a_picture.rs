@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let ephemeris = Ephemeris::load(&catalogs, setting.tolerance)?;
     let sky = SkyState::at(&ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
-    let (plan, _) = lay(&setting, &scene.layers, &night, || catalogs.moon_maps())?;
+    let (plan, _) = lay(&setting, &scene.layers, &night, &catalogs)?;
     // The frame is in cd/m2, from the dark between the stars to the disc of the Sun.
     let frame = Renderer::new()?.frame(&plan)?.frame;
     let seen = scene.eye.see(&frame, setting.camera.pixel_angle());

@@ -14,6 +14,7 @@ use nocturne::ephemeris::Ephemeris;
 use nocturne::export::{OutputFile, png};
 use nocturne::eye::Eye;
 use nocturne::image::Image;
+use nocturne::light::night_lights::NightGlow;
 use nocturne::light::night::Night;
 use nocturne::plan::lay::lay;
 use nocturne::render::Renderer;
@@ -130,6 +131,7 @@ impl Studio {
             air: self.air.clone(),
             sky: None,
             scintillation: None,
+            night: NightGlow::default(),
             moon: SceneMoon::default(),
             eye: Eye::default(),
             marks: Marks { horizon: false, cardinal_points: false },
@@ -141,7 +143,7 @@ impl Studio {
         let sky =
             SkyState::at(&self.ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
         let night = Night::of(sky, self.catalogs.stars()?, &scene.air);
-        let (plan, _) = lay(&setting, &scene.layers, &night, || self.catalogs.moon_maps())?;
+        let (plan, _) = lay(&setting, &scene.layers, &night, &self.catalogs)?;
         let frame = self.renderer.frame(&plan)?.frame;
         let eye = Eye { adaptation_cd_m2, ..scene.eye.clone() };
         Ok(eye.see(&frame, setting.camera.pixel_angle()).picture)

@@ -22,11 +22,13 @@ struct Sky {
     horizon: Radians,
     // Half the height of a pixel at the horizon: the horizon is drawn that soft.
     half_pixel: Radians,
+    // Columns of the dark sky.
+    dark_azimuths: u32,
 }
 
 @group(0) @binding(1) var<storage, read> sky: Sky;
 // Sun, then Moon: by row and by azimuth from the source (0 to pi), the smooth part and that of the
-// haze over its phase function; then the dark sky by row alone. Rows lie above the horizon h at
+// haze over its phase function; then the dark sky by row and by azimuth from north (0 to 2 pi). Rows lie above the horizon h at
 // h + (pi/2 - h) t^2, then below it at h - (pi/2 + h) t^4, for t from 0 to 1.
 @group(0) @binding(2) var<storage, read> table: array<vec4f>;
 // The phase function of the haze, in equal steps of the square root of the turn, 0 to pi.
@@ -79,12 +81,24 @@ fn scattered(source: u32, dir: vec3f, azimuth_from_source: Radians, row: Row) ->
     return light;
 }
 
+// Given an azimuth and a row, the light of the dark sky.
+fn dark_sky(azimuth: Radians, row: Row) -> LuminanceXyzv {
+    let place = fract(azimuth / (2.0 * PI)) * f32(sky.dark_azimuths);
+    let column = min(u32(place), sky.dark_azimuths - 1u);
+    let along = place - f32(column);
+    let beside = select(column + 1u, 0u, column + 1u == sky.dark_azimuths);
+    let low = 4u * (sky.above + sky.below) * sky.azimuths + row.row * sky.dark_azimuths;
+    let high = low + sky.dark_azimuths;
+    let in_low = mix(table[low + column], table[low + beside], along);
+    let in_high = mix(table[high + column], table[high + beside], along);
+    return mix(in_low, in_high, row.share);
+}
+
 // Given an apparent direction and its altitude, the light there, from a side of the horizon.
 fn light_of_side(dir: vec3f, altitude: Radians, above: bool) -> LuminanceXyzv {
     let row = row_at(altitude, above);
-    let dark = 4u * (sky.above + sky.below) * sky.azimuths + row.row;
-    var light = mix(table[dark], table[dark + 1u], row.share);
     let azimuth = atan2(dir.x, dir.y);
+    var light = dark_sky(azimuth, row);
     for (var source = 0u; source < 2u; source++) {
         if sky.shines[source] != 0u {
             let turned = azimuth - sky.sources[source].dir.w;

@@ -15,6 +15,7 @@
 //! ```text
 //! Icrs        x to the origin of right ascension, z to the celestial pole of the ICRS
 //! EclipticOfDate  x to the mean equinox of date, z to the pole of the ecliptic of date
+//! Helioecliptic  x to the longitude of the Sun, z to the pole of the ecliptic of J2000.0
 //! MeanOfDate  x to the mean equinox of date, z to the mean pole of date
 //! TrueOfDate  x to the true equinox of date, z to the true pole (precession and nutation)
 //! Itrs        x to the prime meridian, z to the geographic pole; turns with the Earth
@@ -47,6 +48,9 @@ pub enum Icrs {}
 /// Mean ecliptic and mean equinox of date.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EclipticOfDate {}
+/// Ecliptic of J2000.0, x towards the longitude of the Sun.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Helioecliptic {}
 /// Mean equator and mean equinox of date: precession, no nutation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MeanOfDate {}

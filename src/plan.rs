@@ -6,10 +6,13 @@
 pub mod body;
 pub mod classic;
 pub mod corona;
+pub mod dark_sky;
+pub mod data;
 pub mod disc;
 pub mod globe;
 pub mod lay;
 pub mod ledger;
+pub mod milky_way;
 pub mod planet;
 pub mod skylight;
 
@@ -22,7 +25,10 @@ use crate::catalog::CatalogError;
 use crate::frame::{Apparent, Dir};
 use crate::units::{Angle, Xyzv};
 
+use crate::place::gazetteer::GazetteerError;
+
 use disc::Disc;
+use milky_way::MilkyWayPlan;
 
 /// Why there is no plan.
 #[derive(Debug, Error)]
@@ -33,6 +39,8 @@ pub enum PlanError {
     Sky(#[from] ClassicSkyError),
     #[error(transparent)]
     Catalog(#[from] CatalogError),
+    #[error(transparent)]
+    Places(#[from] GazetteerError),
 }
 
 /// Everything that the GPU is asked to draw.
@@ -40,6 +48,8 @@ pub enum PlanError {
 pub struct FramePlan {
     pub camera: Camera,
     pub sky: SkyPlan,
+    /// The light of stars that are not drawn one by one; none when it does not shine.
+    pub milky_way: Option<MilkyWayPlan>,
     pub discs: Vec<Disc>,
     pub splats: Vec<Splat>,
 }
@@ -56,6 +66,9 @@ pub struct Splat {
 /// The nodes of the tables of a [`SkyPlan`]: read with straight lines, see [`SkyView`].
 pub const SKY_SHAPE: SkyShape = SkyShape { above: 121, below: 49, azimuths: 73 };
 
+/// Azimuths of the table of the dark sky, from north through east, in equal steps.
+pub const DARK_AZIMUTHS: usize = 180;
+
 /// The light of the sky, and of the ground seen through the air before it, as tables.
 #[derive(Debug, Clone)]
 pub struct SkyPlan {
@@ -68,7 +81,8 @@ pub struct SkyPlan {
     pub sun_left: Option<SourceSky>,
     /// Moonlight scattered by the air and the ground; none when the Moon is down.
     pub moon: Option<SourceSky>,
-    /// What there is without Sun and Moon, by the rows of [`SKY_SHAPE`], cd/m2.
+    /// What there is without Sun and Moon, but for the Milky Way, by the rows of [`SKY_SHAPE`] and, in
+    /// a row, by [`DARK_AZIMUTHS`], cd/m2.
     pub dark: Vec<Xyzv>,
 }
 
@@ -125,7 +139,7 @@ impl SkyPlan {
             sun: None,
             sun_left: None,
             moon: None,
-            dark: vec![Xyzv::BLACK; SKY_SHAPE.rows()],
+            dark: dark_sky::no_light(),
         }
     }
 
@@ -144,8 +158,8 @@ impl SkyPlan {
         let altitude = dir.altitude();
         let above = altitude >= self.horizon;
         let (row, up) = SKY_SHAPE.row_at(altitude, self.horizon, above);
-        let mut light = self.dark[row] * (1.0 - up) + self.dark[row + 1] * up;
         let azimuth = dir.azimuth();
+        let mut light = self.dark_light(row, up, azimuth);
         for (source, side) in self.sources().into_iter().flatten() {
             let mut channels = [0.0; 4];
             let from_source = (azimuth - source.azimuth).signed();
@@ -156,5 +170,18 @@ impl SkyPlan {
             light += xyzv(&channels);
         }
         light
+    }
+
+    /// The dark sky, a share of the way from a row to the next.
+    fn dark_light(&self, row: usize, up: f64, azimuth: Angle) -> Xyzv {
+        let place = azimuth.rad() / std::f64::consts::TAU * DARK_AZIMUTHS as f64;
+        let column = (place as usize).min(DARK_AZIMUTHS - 1);
+        let along = place - column as f64;
+        let beside = (column + 1) % DARK_AZIMUTHS;
+        let in_row = |row: usize| {
+            let row = &self.dark[row * DARK_AZIMUTHS..][..DARK_AZIMUTHS];
+            row[column] * (1.0 - along) + row[beside] * along
+        };
+        in_row(row) * (1.0 - up) + in_row(row + 1) * up
     }
 }

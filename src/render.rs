@@ -10,10 +10,13 @@ pub mod uniforms;
 mod discs;
 mod globe;
 mod globe_maps;
+mod milky_way;
 mod sky;
 pub mod sky_tiles;
 mod splats;
 mod target;
+
+use std::sync::OnceLock;
 
 use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
@@ -27,6 +30,8 @@ use sky_tiles::SkyDetail;
 pub struct Renderer {
     gpu: Gpu,
     sky: sky::SkyPass,
+    /// Made when it first shines.
+    milky_way: OnceLock<milky_way::MilkyWayPass>,
     discs: discs::DiscPass,
     splats: splats::SplatPass,
 }
@@ -45,7 +50,7 @@ impl Renderer {
         let sky = sky::SkyPass::new(&gpu);
         let discs = discs::DiscPass::new(&gpu);
         let splats = splats::SplatPass::new(&gpu);
-        Ok(Renderer { gpu, sky, discs, splats })
+        Ok(Renderer { gpu, sky, milky_way: OnceLock::new(), discs, splats })
     }
 
     /// What draws: the adapter's name and driver.
@@ -64,6 +69,10 @@ impl Renderer {
         let mut frame = target::Target::new(&self.gpu, camera)?;
 
         self.sky.draw(&mut frame, &plan.sky, camera, detail);
+        if let Some(milky_way) = &plan.milky_way {
+            let pass = self.milky_way.get_or_init(|| milky_way::MilkyWayPass::new(&self.gpu));
+            pass.draw(&mut frame, milky_way, camera);
+        }
         for disc in &plan.discs {
             self.discs.draw(&mut frame, disc);
         }

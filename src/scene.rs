@@ -11,6 +11,7 @@ use crate::camera::{Camera, CameraError, Projection};
 use crate::eye::Eye;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
+use crate::light::night_lights::{NightGlow, NightGlowError};
 use crate::light::scintillation::{Scintillation, ScintillationError};
 use crate::place::{Place, PlaceError};
 use crate::time::{self, Instant, TimeError};
@@ -46,6 +47,8 @@ pub enum SceneError {
     #[error(transparent)]
     Sky(#[from] ClassicSkyError),
     #[error(transparent)]
+    Night(#[from] NightGlowError),
+    #[error(transparent)]
     Scintillation(#[from] ScintillationError),
 }
 
@@ -70,6 +73,9 @@ pub struct Scene {
     /// How points of light twinkle; not at all when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scintillation: Option<Scintillation>,
+    /// How the dark sky glows.
+    #[serde(default)]
+    pub night: NightGlow,
     #[serde(default)]
     pub moon: SceneMoon,
     #[serde(default)]
@@ -135,6 +141,13 @@ pub struct Layers {
     /// Light of the sky itself: scattered sunlight and moonlight, and the dark sky.
     pub skylight: bool,
     pub ground: bool,
+    /// Lights of the dark sky: each shines only with `skylight`.
+    pub airglow: bool,
+    pub zodiacal_light: bool,
+    /// All stars that are not drawn one by one, and the dust that they light.
+    pub milky_way: bool,
+    /// Shines only where [`NightGlow`] asks for it.
+    pub town_glow: bool,
     /// Stars and planets fainter than this are left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub magnitude_limit: Option<f64>,
@@ -149,6 +162,10 @@ impl Default for Layers {
             stars: true,
             skylight: true,
             ground: true,
+            airglow: true,
+            zodiacal_light: true,
+            milky_way: true,
+            town_glow: true,
             magnitude_limit: None,
         }
     }
@@ -178,6 +195,8 @@ pub struct Setting {
     pub tolerance: Angle,
     /// A classic model of the sky in place of the air solved.
     pub sky: Option<ClassicSky>,
+    /// How the dark sky glows.
+    pub night: NightGlow,
     /// How the ground of the Moon sends light back.
     pub reflectance: Reflectance,
     /// How points of light twinkle.
@@ -231,6 +250,7 @@ impl Scene {
         .checked()?;
         self.air.validate_at(at.height_m)?;
         self.sky.as_ref().map_or(Ok(()), ClassicSky::validate)?;
+        self.night.validate()?;
         self.check_numbers()?;
         let tolerance = match self.tolerance_arcsec {
             Some(arcsec) => Angle::from_arcsec(arcsec),
@@ -238,8 +258,16 @@ impl Scene {
         };
         let reflectance = self.moon.reflectance;
         let scintillation = self.scintillation.map(Scintillation::checked).transpose()?;
-        let sky = self.sky;
-        Ok(Setting { instant, place, camera, tolerance, sky, reflectance, scintillation })
+        Ok(Setting {
+            instant,
+            place,
+            camera,
+            tolerance,
+            sky: self.sky,
+            night: self.night,
+            reflectance,
+            scintillation,
+        })
     }
 
     fn check_numbers(&self) -> Result<(), SceneError> {
@@ -289,6 +317,7 @@ mod tests {
             layers: Layers::default(),
             sky: None,
             scintillation: None,
+            night: NightGlow::default(),
             moon: SceneMoon::default(),
             air: Atmosphere::default(),
             eye: Eye::default(),

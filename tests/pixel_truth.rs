@@ -11,6 +11,7 @@ use nocturne::ephemeris::Ephemeris;
 use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::eye::Eye;
 use nocturne::frame::{Dir, Horizon};
+use nocturne::light::night_lights::NightGlow;
 use nocturne::light::night::Night;
 use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 use nocturne::sky::SkyState;
@@ -55,7 +56,8 @@ fn scene(time: &str, place: &[f64]) -> Scene {
         layers: Layers::default(),
         sky: None,
         scintillation: None,
-        moon: SceneMoon::default(),
+        night: NightGlow::default(),
+            moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),

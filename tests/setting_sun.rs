@@ -55,7 +55,7 @@ fn laid(scene: &Scene) -> (FramePlan, Ledger, Night) {
     let night = night(scene);
     let catalogs = Catalogs::locate(None).unwrap();
     let (plan, ledger) =
-        lay(&scene.setting().unwrap(), &scene.layers, &night, || catalogs.moon_maps()).unwrap();
+        lay(&scene.setting().unwrap(), &scene.layers, &night, &catalogs).unwrap();
     (plan, ledger, night)
 }
 

@@ -39,7 +39,7 @@ pub fn draw(
     let renderer = progress.step("graphics adapter", Renderer::new)?;
     let mut kept = Kept::new(Store::of_user());
     let (plan, ledger) = progress.step("light and air", || {
-        lay_in(setting, &scene.layers, night, || catalogs.moon_maps(), &mut kept)
+        lay_in(setting, &scene.layers, night, catalogs, &mut kept)
     })?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;

@@ -217,7 +217,7 @@ fn of_scene(
     let night = stage::night_of(&scene, &setting, catalogs)?;
     let layers = Layers { sun: false, moon: false, planets: false, stars: false, ..scene.layers };
     let mut kept = Kept::new(Store::of_user());
-    let (plan, _) = lay_in(&setting, &layers, &night, || catalogs.moon_maps(), &mut kept)?;
+    let (plan, _) = lay_in(&setting, &layers, &night, catalogs, &mut kept)?;
     let dirs: Vec<_> = directions
         .into_iter()
         .map(|[altitude, azimuth]| Dir::from_azimuth_altitude(azimuth, altitude))

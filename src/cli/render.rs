@@ -10,6 +10,7 @@ use crate::air::classic::{ClassicModel, ClassicSky};
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
 use crate::eye::Eye;
+use crate::light::night_lights::NightGlow;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
 use crate::plan::classic::ClassicLight;
@@ -249,7 +250,8 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         layers: Layers::default(),
         sky: None,
         scintillation: None,
-        moon: SceneMoon::default(),
+        night: NightGlow::default(),
+            moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),

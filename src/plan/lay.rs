@@ -1,9 +1,9 @@
 //! Lays a night on the plane of the picture.
 
 use crate::camera::Camera;
-use crate::catalog::{CatalogError, MoonMaps};
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
+use crate::light::dark_sky::DarkSky;
 use crate::light::moon::Reflectance;
 use crate::light::night::{Kind, LitObject, Night, StarSearch};
 use crate::scene::{Layers, Setting};
@@ -14,10 +14,13 @@ use crate::units::{Angle, Illuminance, Magnitude, Xyzv};
 use super::body::SeenBody;
 use super::classic::ClassicLight;
 use super::corona::{self, Corona};
+use super::dark_sky::{self, KeptDarkSky};
+use super::data::SkyData;
 use super::globe::KeptGlobe;
 use super::ledger::Ledger;
 use super::skylight::{self, KeptAir, Origin, Shines};
-use super::{FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
+use super::milky_way::MilkyWayPlan;
+use super::{DARK_AZIMUTHS, FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
 
 /// Reach of a splat from its centre, pixels.
 const SPLAT_REACH_PX: f64 = 2.0;
@@ -31,7 +34,7 @@ const BLUE_RIM: Angle = Angle::from_arcmin(1.0);
 
 const OUT_OF_VIEW: &str = "out of view";
 const BELOW_HORIZON: &str = "below the horizon";
-const SWITCHED_OFF: &str = "switched off";
+pub(super) const SWITCHED_OFF: &str = "switched off";
 const NOT_IN_MODEL: &str = "not in the classic model of the sky";
 const TOO_FAINT: &str = "fainter than the magnitude limit";
 const OUTSHONE: &str = "under 1/10 000 of the sky behind it";
@@ -45,24 +48,29 @@ const BEFORE_JUPITER: &str = "before the disc of Jupiter";
 pub struct Kept {
     pub air: KeptAir,
     pub globe: KeptGlobe,
+    pub dark_sky: KeptDarkSky,
 }
 
 impl Kept {
     /// Nothing yet, but for air in a store.
     pub fn new(store: Store) -> Kept {
-        Kept { air: KeptAir::new(store), globe: KeptGlobe::default() }
+        Kept {
+            air: KeptAir::new(store),
+            globe: KeptGlobe::default(),
+            dark_sky: KeptDarkSky::default(),
+        }
     }
 }
 
 /// Makes the plan of a frame and the ledger of what is in it. The Moon's maps are asked for only if
-/// the Moon shows a disc.
+/// the Moon shows a disc, that of the Milky Way only if it is dark.
 pub fn lay(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
+    data: &impl SkyData,
 ) -> Result<(FramePlan, Ledger), PlanError> {
-    lay_in(setting, layers, night, moon, &mut Kept::new(Store::NONE))
+    lay_in(setting, layers, night, data, &mut Kept::new(Store::NONE))
 }
 
 /// The same with what a frame before made, which is used again where it is the same.
@@ -70,15 +78,22 @@ pub fn lay_in(
     setting: &Setting,
     layers: &Layers,
     night: &Night,
-    moon: impl FnOnce() -> Result<MoonMaps, CatalogError>,
+    data: &impl SkyData,
     kept: &mut Kept,
 ) -> Result<(FramePlan, Ledger), PlanError> {
     let camera = setting.camera;
     let mut ledger = Ledger::default();
     let classic = setting.sky.map(|sky| ClassicLight::of(&sky, night)).transpose()?;
-    let sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, &mut kept.air)?;
-    let mut plan = FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() };
-    let mut moon = Some(moon);
+    let mut sky = lay_sky(layers, night, classic.as_ref(), &mut ledger, &mut kept.air)?;
+    let milky_way = match classic {
+        Some(_) => {
+            ledger.skip("dark sky", NOT_IN_MODEL);
+            None
+        }
+        None => lay_dark_sky(setting, layers, night, data, &mut ledger, kept, &mut sky)?,
+    };
+    let sky = without_ground(sky, layers);
+    let mut plan = FramePlan { camera, sky, milky_way, discs: Vec::new(), splats: Vec::new() };
 
     for object in &night.objects {
         if object.kind == Kind::Body(Body::Sun) && layers.sun {
@@ -229,17 +244,16 @@ fn lay_sky(
     let sun = switched(layers.skylight, skylight::sun_shines(night));
     let known = |shines: Shines| classic.map_or(shines, |_| Shines::No(NOT_IN_MODEL));
     let moon = switched(layers.skylight, known(skylight::moon_shines(night)));
-    let dark = switched(layers.skylight, known(Shines::Yes));
     let ground = switched(layers.ground, Shines::Yes);
     for (layer, shines) in
-        [("sunlit air", sun), ("moonlit air", moon), ("dark sky", dark), ("ground", ground)]
+        [("sunlit air", sun), ("moonlit air", moon), ("ground", ground)]
     {
         match shines {
             Shines::Yes => ledger.draw(layer),
             Shines::No(reason) => ledger.skip(layer, reason),
         }
     }
-    let mut sky = match classic.filter(|_| layers.skylight) {
+    let sky = match classic.filter(|_| layers.skylight) {
         Some(light) => light.plan(night),
         None => {
             let (sun, moon) = (sun == Shines::Yes, moon == Shines::Yes);
@@ -256,17 +270,37 @@ fn lay_sky(
             sky
         }
     };
-    let (above, below) = sky.dark.split_at_mut(SKY_SHAPE.above);
-    if !layers.skylight {
-        above.fill(Xyzv::BLACK);
+    Ok(sky)
+}
+
+/// Lays the dark sky if it is not outshone; the Milky Way before it is apart.
+fn lay_dark_sky(
+    setting: &Setting,
+    layers: &Layers,
+    night: &Night,
+    data: &dyn SkyData,
+    ledger: &mut Ledger,
+    kept: &mut Kept,
+    sky: &mut SkyPlan,
+) -> Result<Option<MilkyWayPlan>, PlanError> {
+    let lights =
+        dark_sky::lights(&setting.night, layers, night, data, &mut kept.dark_sky, ledger)?;
+    if lights.are_out() {
+        return Ok(None);
     }
+    let air = kept.dark_sky.air(night)?;
+    Ok(dark_sky::lay(&DarkSky::new(&air, lights), sky))
+}
+
+/// A sky with its ground black where there is to be none.
+fn without_ground(mut sky: SkyPlan, layers: &Layers) -> SkyPlan {
     if !layers.ground {
-        below.fill(Xyzv::BLACK);
+        sky.dark[SKY_SHAPE.above * DARK_AZIMUTHS..].fill(Xyzv::BLACK);
         for source in [&mut sky.sun, &mut sky.sun_left, &mut sky.moon].into_iter().flatten() {
             source.view.blacken_ground();
         }
     }
-    Ok(sky)
+    sky
 }
 
 fn layer_of(object: &LitObject, layers: &Layers) -> (&'static str, bool) {
@@ -347,7 +381,7 @@ enum Laid {
 /// Draws a body as a disc, or as points of light, which twinkle, when it is small.
 fn lay_body(
     seen: &SeenBody,
-    moon: impl FnOnce() -> Result<Option<MoonMaps>, CatalogError>,
+    data: &impl SkyData,
     law: Reflectance,
     twinkle: f64,
     plan: &mut FramePlan,
@@ -364,7 +398,7 @@ fn lay_body(
     }
     let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
     let Some(air) = seen.air() else { return Ok(Laid::Not(BELOW_HORIZON)) };
-    let surface = if seen.is_moon() { moon()? } else { None };
+    let surface = if seen.is_moon() { Some(data.moon_maps()?) } else { None };
     if seen.is_small() {
         let shape = seen.shape(surface.as_ref());
         let mut any = false;

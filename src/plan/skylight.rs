@@ -10,7 +10,6 @@ use crate::air::scattering::{
 };
 use crate::background::{Background, Interrupt};
 use crate::frame::{Dir, Horizon};
-use crate::light::diffuse::NightSky;
 use crate::light::moon_shadow::MoonShadow;
 use crate::light::night::Night;
 use crate::light::solar_eclipse::CoveredSun;
@@ -234,14 +233,5 @@ pub fn sky_plan(
             (sky.sun, sky.sun_left) = (Some(clockwise), Some(other));
         }
     }
-    sky.dark = dark_sky(night, sky.horizon)?;
     Ok((sky, origin))
-}
-
-/// The sky without Sun and Moon, and the ground under it, by the rows of [`SKY_SHAPE`].
-fn dark_sky(night: &Night, horizon: Angle) -> Result<Vec<Xyzv>, ScatteringError> {
-    let dark = NightSky::default().through(&night.air, night.sky.place.height_m)?;
-    let elevations: Vec<Angle> =
-        (0..SKY_SHAPE.rows()).map(|row| SKY_SHAPE.elevation_beside(row, horizon)).collect();
-    Ok(dark.luminances(night.air.eye_km(night.sky.place.height_m), &elevations))
 }

@@ -8,9 +8,10 @@ const DISCS: &str = include_str!("../../shaders/discs.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 7] = [
+pub const SHADERS: [(&str, &[&str]); 8] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
+    ("milky-way", &[QUANTITIES, CAMERA, include_str!("../../shaders/milky_way.wgsl")]),
     ("globe", &[QUANTITIES, GLOBE, include_str!("../../shaders/globe.wgsl")]),
     ("globe-mean", &[QUANTITIES, GLOBE, include_str!("../../shaders/globe_mean.wgsl")]),
     ("discs", &[QUANTITIES, CAMERA, GLOBE, DISCS]),

@@ -150,7 +150,7 @@ impl Tables {
 /// The tables one after the other, as `shaders/skylight.wgsl` expects them.
 fn table(sky: &SkyPlan) -> Vec<[f32; 4]> {
     let of_source = 2 * SKY_SHAPE.nodes();
-    let mut table = vec![[0.0; 4]; 2 * of_source + SKY_SHAPE.rows()];
+    let mut table = vec![[0.0; 4]; 2 * of_source + sky.dark.len()];
     for (number, source) in sky.sources().into_iter().enumerate() {
         let Some((source, _)) = source else { continue };
         let texels = &mut table[number * of_source..][..of_source];

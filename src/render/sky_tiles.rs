@@ -62,8 +62,8 @@ impl SkyTiles {
 }
 
 /// Edges of the largest and of the smallest tiles, pixels.
-const LARGEST_PX: u32 = 64;
-const SMALLEST_PX: u32 = 8;
+pub(super) const LARGEST_PX: u32 = 64;
+pub(super) const SMALLEST_PX: u32 = 8;
 /// Apart so far stand the points that are looked at, pixels; and how many along an edge of a block.
 const POINT_PX: u32 = SMALLEST_PX / 2;
 const POINTS: usize = (LARGEST_PX / POINT_PX) as usize + 1;

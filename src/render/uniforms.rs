@@ -19,7 +19,7 @@ use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
 use crate::plan::planet::PlanetDisc;
-use crate::plan::{SKY_SHAPE, Side, SkyPlan, SourceSky};
+use crate::plan::{DARK_AZIMUTHS, SKY_SHAPE, Side, SkyPlan, SourceSky};
 use crate::units::Angle;
 
 /// `Camera` of `shaders/lib/camera.wgsl`.
@@ -44,6 +44,27 @@ pub struct SkyUniform {
     pub phases: u32,
     pub horizon: f32,
     pub half_pixel: f32,
+    pub dark_azimuths: u32,
+    pub pad: [u32; 3],
+}
+
+/// `Corner` of `shaders/milky_way.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct MilkyWayCorner {
+    pub pixel: [f32; 2],
+    pub dir: [f32; 3],
+    pub blue: [f32; 4],
+    pub red: [f32; 4],
+    pub over: f32,
+}
+
+impl MilkyWayCorner {
+    /// Where there is no sky.
+    pub fn black(pixel: [f64; 2]) -> MilkyWayCorner {
+        let pixel = pixel.map(|v| v as f32);
+        MilkyWayCorner { pixel, dir: [0.0, 0.0, 1.0], blue: [0.0; 4], red: [0.0; 4], over: -1.0 }
+    }
 }
 
 /// `Disc` of `shaders/discs.wgsl`.
@@ -185,6 +206,8 @@ impl SkyUniform {
             phases: PHASE_VALUES as u32,
             horizon: sky.horizon.rad() as f32,
             half_pixel: (pixel_rad / 2.0) as f32,
+            dark_azimuths: DARK_AZIMUTHS as u32,
+            pad: [0; 3],
         }
     }
 }

@@ -153,6 +153,13 @@ impl StarIndex {
     }
 }
 
+impl StarIndex {
+    /// Whether both share one catalogue.
+    pub fn is_same(&self, other: &StarIndex) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
 impl Deref for StarIndex {
     type Target = [Star];
     fn deref(&self) -> &[Star] {

@@ -73,7 +73,7 @@ pub fn laid(scene: &Scene) -> Result<(FramePlan, Ledger, Setting, Night), Failed
         setting.tolerance,
     )?;
     let night = Night::of(sky, catalogs.stars()?, &scene.air);
-    let (plan, ledger) = lay(&setting, &scene.layers, &night, || catalogs.moon_maps())?;
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, &catalogs)?;
     Ok((plan, ledger, setting, night))
 }
 

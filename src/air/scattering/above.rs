@@ -313,27 +313,31 @@ impl DiffuseField {
     /// What comes straight from the sky is not in it: that is the sky times
     /// [`DiffuseView::transmittance`]. The azimuth is that of the harmonics.
     pub fn radiance(&self, view: &DiffuseView, azimuth: Angle, out: &mut [f64]) {
+        self.around(view).at(azimuth, out);
+    }
+
+    /// The same for all azimuths at once.
+    pub fn around(&self, view: &DiffuseView) -> DiffuseRing {
         let bands = self.air.bands.iter().zip(&self.bands).zip(&view.paths);
-        for (((band, orders), path), out) in bands.zip(out.chunks_mut(LANES)) {
+        let orders = bands.map(|((band, orders), path)| {
             let nodes = &band.operators.nodes;
-            let mut sum = Lanes::ZERO;
-            for (m, (field, operator)) in orders.iter().zip(&band.operators.orders).enumerate() {
-                let (sine, cosine) = (m as f64 * azimuth.rad()).sin_cos();
-                let (sine, cosine) = (sine as f32, cosine as f32);
+            let order = |(field, operator): (&OrderField, &operator::Operator)| {
+                let mut waves = [Lanes::ZERO; 2];
                 operator.layout.along(nodes, path, |place, weight| {
-                    let mut moment = field.cos[place] * cosine;
+                    waves[0] += weight * field.cos[place];
                     if let Some(sin) = &field.sin {
-                        moment += sin[place] * sine;
+                        waves[1] += weight * sin[place];
                     }
-                    sum += weight * moment;
                 });
                 if let (true, Some(ground)) = (path.meets_ground, operator.layout.ground) {
-                    sum +=
+                    waves[0] +=
                         path.transmittance * field.cos[ground] * reflectance(&self.air.air(band));
                 }
-            }
-            out.iter_mut().zip(sum.0).for_each(|(out, value)| *out = f64::from(value));
-        }
+                waves
+            };
+            orders.iter().zip(&band.operators.orders).map(order).collect()
+        });
+        DiffuseRing { bands: orders.collect() }
     }
 
     /// Irradiance of level ground, straight from the sky and by way of the air, each wavelength.
@@ -344,5 +348,41 @@ impl DiffuseField {
             irradiance.0.map(f64::from)
         });
         ground.take(self.air.wavelengths_nm.len()).collect()
+    }
+}
+
+/// Radiance of the air and of the ground along views that differ in azimuth alone: a few waves around
+/// the horizon.
+#[derive(Debug, Clone)]
+pub struct DiffuseRing {
+    /// Of each band, by order: what goes with the cosine and with the sine.
+    bands: Vec<Vec<[Lanes; 2]>>,
+}
+
+impl DiffuseRing {
+    /// At an azimuth, each wavelength.
+    pub fn at(&self, azimuth: Angle, out: &mut [f64]) {
+        for (orders, out) in self.bands.iter().zip(out.chunks_mut(LANES)) {
+            let mut sum = Lanes::ZERO;
+            for (m, [cos, sin]) in orders.iter().enumerate() {
+                let (sine, cosine) = (m as f64 * azimuth.rad()).sin_cos();
+                sum += *cos * cosine as f32;
+                sum += *sin * sine as f32;
+            }
+            out.iter_mut().zip(sum.0).for_each(|(out, value)| *out = f64::from(value));
+        }
+    }
+
+    /// The waves, by order: what goes with the cosine and with the sine, each wavelength.
+    pub fn waves(&self) -> Vec<[Vec<f64>; 2]> {
+        let orders = self.bands.iter().map(Vec::len).max().unwrap_or(0);
+        let wave = |order: usize, part: usize| {
+            let lanes = self.bands.iter().flat_map(|orders| match orders.get(order) {
+                Some(waves) => waves[part].0,
+                None => Lanes::ZERO.0,
+            });
+            lanes.map(f64::from).collect()
+        };
+        (0..orders).map(|order| [wave(order, 0), wave(order, 1)]).collect()
     }
 }

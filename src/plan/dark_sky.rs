@@ -1,0 +1,148 @@
+//! The dark sky of a frame: what of it shines, its table, and what is kept between frames.
+
+use std::sync::Arc;
+
+use crate::air::Atmosphere;
+use crate::air::scattering::ScatteringError;
+use crate::frame::galactic_from_icrs;
+use crate::light::dark_sky::{DarkSky, NightAir, NightLights};
+use crate::light::night::Night;
+use crate::light::night_lights::{NightGlow, helioecliptic_from_horizon};
+use crate::light::starlight::{StarGlow, Starlight};
+use crate::light::town_glow::{GlowTables, TownGlow, TownLight};
+use crate::scene::Layers;
+use crate::sky::star_index::StarIndex;
+use crate::units::{Angle, Xyzv};
+
+use super::data::SkyData;
+use super::ledger::Ledger;
+use super::lay::SWITCHED_OFF;
+use super::milky_way::MilkyWayPlan;
+use super::{DARK_AZIMUTHS, PlanError, SKY_SHAPE, SkyPlan};
+
+/// Above this altitude of the Sun the dark sky is nowhere over 1/10 000 of twilight.
+pub const DARK_SKY_SUN_LIMIT: Angle = Angle::from_deg(-3.0);
+
+const OUTSHONE: &str = "the Sun outshines it ten thousandfold";
+const NO_TOWNS: &str = "none is asked for";
+
+/// What frames in a row share of the dark sky.
+#[derive(Default)]
+pub struct KeptDarkSky {
+    air: Option<NightAir>,
+    town_shapes: Option<(Atmosphere, f64, GlowTables)>,
+    starlight: Option<Starlight>,
+    /// All stars of a catalogue.
+    catalogue: Option<(StarIndex, Arc<StarGlow>)>,
+}
+
+impl KeptDarkSky {
+    /// The air of a night.
+    pub fn air(&mut self, night: &Night) -> Result<NightAir, ScatteringError> {
+        let height_m = night.sky.place.height_m;
+        if let Some(air) = self.air.as_ref().filter(|air| air.is_of(&night.air, height_m)) {
+            return Ok(air.clone());
+        }
+        Ok(self.air.insert(NightAir::solve(&night.air, height_m)?).clone())
+    }
+
+    fn town_shapes(&mut self, night: &Night) -> Result<GlowTables, ScatteringError> {
+        let height_m = night.sky.place.height_m;
+        if let Some((air, height, shapes)) = &self.town_shapes
+            && *air == night.air
+            && *height == height_m
+        {
+            return Ok(shapes.clone());
+        }
+        let shapes = GlowTables::solve(&night.air, height_m)?;
+        Ok(self.town_shapes.insert((night.air.clone(), height_m, shapes)).2.clone())
+    }
+
+    fn starlight(&mut self, data: &dyn SkyData) -> Result<Option<Starlight>, PlanError> {
+        if self.starlight.is_none() {
+            self.starlight = data.milky_way()?.map(Starlight::new);
+        }
+        Ok(self.starlight.clone())
+    }
+
+    fn catalogue(&mut self, stars: &StarIndex) -> Arc<StarGlow> {
+        if let Some((known, glow)) = &self.catalogue
+            && known.is_same(stars)
+        {
+            return glow.clone();
+        }
+        let glow = Arc::new(glow_of(stars, f64::NEG_INFINITY));
+        self.catalogue.insert((stars.clone(), glow)).1.clone()
+    }
+}
+
+/// The stars of a catalogue that are fainter than a magnitude.
+fn glow_of(stars: &StarIndex, fainter_than: f64) -> StarGlow {
+    let axes = galactic_from_icrs();
+    let faint = stars.iter().filter(|star| star.magnitude.0 > fainter_than);
+    StarGlow::of(faint.map(|star| (axes * star.position, star.magnitude.illuminance())))
+}
+
+/// What shines on a night, by the layers that are wanted; says in the ledger what does not and why.
+pub fn lights(
+    glow: &NightGlow,
+    layers: &Layers,
+    night: &Night,
+    data: &dyn SkyData,
+    kept: &mut KeptDarkSky,
+    ledger: &mut Ledger,
+) -> Result<NightLights, PlanError> {
+    let outshone = night.sky.sun.dir.altitude() > DARK_SKY_SUN_LIMIT;
+    let mut shines = |layer: &'static str, wanted: bool| {
+        let why_not = match (layers.skylight && wanted, outshone) {
+            (false, _) => SWITCHED_OFF,
+            (true, true) => OUTSHONE,
+            (true, false) => {
+                ledger.draw(layer);
+                return true;
+            }
+        };
+        ledger.skip(layer, why_not);
+        false
+    };
+    let mut lights = NightLights::default();
+    if shines("airglow", layers.airglow) {
+        lights.airglow = glow.airglow(&night.sky);
+    }
+    if shines("zodiacal light", layers.zodiacal_light) {
+        lights.helioecliptic_from_horizon = Some(helioecliptic_from_horizon(&night.sky));
+    }
+    if shines("Milky Way", layers.milky_way) {
+        let axes = galactic_from_icrs() * night.sky.horizon_from_icrs.inverse();
+        lights.starlight = kept.starlight(data)?.map(|starlight| (starlight, axes));
+        lights.catalogue = Some(kept.catalogue(&night.stars));
+        let limit = layers.magnitude_limit.filter(|_| layers.stars);
+        lights.undrawn = limit.map(|limit| Arc::new(glow_of(&night.stars, limit)));
+    }
+    let towns = match glow.towns {
+        true => TownLight::Towns(data.towns_around(&night.sky.place)?),
+        false => glow.town_light_all_round(),
+    };
+    if towns == TownLight::None {
+        ledger.skip("town glow", if layers.town_glow { NO_TOWNS } else { SWITCHED_OFF });
+    } else if shines("town glow", layers.town_glow) {
+        lights.towns = Some(TownGlow::new(&towns, glow.lamps, &kept.town_shapes(night)?));
+    }
+    Ok(lights)
+}
+
+/// The table of a dark sky for a plan, and the Milky Way in front of it.
+pub fn lay(sky: &DarkSky, plan: &mut SkyPlan) -> Option<MilkyWayPlan> {
+    let altitudes: Vec<Angle> =
+        (0..SKY_SHAPE.rows()).map(|row| SKY_SHAPE.elevation_beside(row, plan.horizon)).collect();
+    let turn = Angle::from_deg(360.0);
+    let azimuths: Vec<Angle> =
+        (0..DARK_AZIMUTHS).map(|column| turn * (column as f64 / DARK_AZIMUTHS as f64)).collect();
+    plan.dark = sky.luminances(&altitudes, &azimuths);
+    MilkyWayPlan::of(sky, plan.horizon, &altitudes[..SKY_SHAPE.above])
+}
+
+/// No dark sky at all.
+pub fn no_light() -> Vec<Xyzv> {
+    vec![Xyzv::BLACK; SKY_SHAPE.rows() * DARK_AZIMUTHS]
+}
