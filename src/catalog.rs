@@ -79,6 +79,22 @@ pub struct Star {
     pub b_v: f64,
     /// Spectral type as the catalogue writes it.
     pub spectral_type: String,
+    /// Name as a variable star, `NSV` and a number in the catalogue of suspected ones, or `Var` and
+    /// `Var?` where the catalogue has no more. No amplitude and no period is known here: its magnitude is
+    /// drawn as it is.
+    pub variable: Option<String>,
+    /// The companion that the catalogue lists, if any.
+    pub companion: Option<Companion>,
+}
+
+/// A companion of a star: of a double star the fainter one. The catalogue has no position angle, so
+/// that it is not drawn apart; where the two share a line of the catalogue its light is in that of the star.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Companion {
+    /// Distance on the sky, arcseconds; 0.0 when closer than the catalogue writes.
+    pub separation_arcsec: f64,
+    /// How much fainter it is, mag; none when unknown.
+    pub magnitude_difference: Option<f64>,
 }
 
 /// What can be wrong with the data files.

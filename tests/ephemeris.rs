@@ -263,6 +263,8 @@ fn star(name: &str) -> Option<Star> {
         magnitude: Magnitude(0.0),
         b_v: 0.0,
         spectral_type: String::new(),
+        variable: None,
+        companion: None,
     })
 }
 

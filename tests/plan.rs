@@ -5,6 +5,7 @@ use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
 use nocturne::light::night::Night;
+use nocturne::light::scintillation::Scintillation;
 use nocturne::plan::lay::{Kept, lay, lay_in};
 use nocturne::plan::ledger::Ledger;
 use nocturne::plan::skylight::{KeptAir, Origin, SolvedAir};
@@ -320,4 +321,26 @@ fn other_air_takes_the_place_of_the_air_before() {
     assert!(thin == again && thin != thick);
     assert!(kept.of(&other.air, height_m).unwrap().0.is_of(&other.air, height_m));
     assert_eq!(kept.of(&other.air, height_m + 1.0).unwrap().1, Origin::SolvedNow);
+}
+
+#[test]
+fn stars_twinkle_only_when_asked_and_alike_for_one_seed() {
+    let mut scene = at("2026-01-18T06:00:00Z");
+    scene.layers.magnitude_limit = Some(5.0);
+    let lights = |scene: &Scene| -> Vec<f64> {
+        laid(scene).0.splats.iter().map(|splat| splat.illuminance.y).collect()
+    };
+    let steady = lights(&scene);
+    let mut with_seed = |seed| {
+        scene.scintillation = Some(Scintillation { seed, ..Scintillation::default() });
+        lights(&scene)
+    };
+    let (one, again, other) = (with_seed(1), with_seed(1), with_seed(2));
+    assert_eq!(one, again);
+    assert_ne!(one, other);
+    let factors: Vec<f64> = one.iter().zip(&steady).map(|(a, b)| a / b).collect();
+    let mean = factors.iter().sum::<f64>() / factors.len() as f64;
+    // 500 stars and more, each a third off at most in the rms: the mean is good to 0.015.
+    assert!(factors.len() > 400 && (mean - 1.0).abs() < 0.05, "{} {mean}", factors.len());
+    assert!(factors.iter().any(|factor| (factor - 1.0).abs() > 0.1));
 }

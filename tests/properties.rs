@@ -294,6 +294,8 @@ fn stars() -> impl Strategy<Value = Vec<Star>> {
             magnitude: Magnitude(magnitude),
             b_v,
             spectral_type: String::new(),
+            variable: None,
+            companion: None,
         },
     );
     proptest::collection::vec(star, 0..40)

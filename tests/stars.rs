@@ -3,14 +3,17 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use nocturne::air::Atmosphere;
 use nocturne::catalog::Catalogs;
 use nocturne::ephemeris::apparent::Observer;
 use nocturne::ephemeris::stars::{SpaceMotion, StarReduction};
 use nocturne::ephemeris::{EarthState, Ephemeris};
 use nocturne::frame::{Dir, Icrs, Pos};
+use nocturne::light::night::{Kind, LitObject, Night, StarSearch};
 use nocturne::place::Place;
-use nocturne::time::{Instant, JulianDate};
-use nocturne::units::Angle;
+use nocturne::sky::SkyState;
+use nocturne::time::{self, Instant, JulianDate};
+use nocturne::units::{Angle, Magnitude};
 
 const ERFA: &str = include_str!("truth/stars_erfa.csv");
 
@@ -94,4 +97,112 @@ fn a_catalogue_at_once_is_its_stars_one_by_one() {
     let all = reduction.horizon_all(&stars);
     assert_eq!(all.len(), stars.len());
     assert!(stars.iter().zip(&all).all(|(star, dir)| reduction.horizon(star) == *dir));
+}
+
+fn night(utc: &str, latitude_deg: f64) -> Night {
+    let catalogs = Catalogs::locate(None).unwrap();
+    let instant = time::to_instant(&time::parse(utc).unwrap(), None).unwrap();
+    let place = Place::new(latitude_deg, -111.6, 2100.0).unwrap();
+    let tolerance = Angle::from_arcmin(30.0);
+    let sky = SkyState::at(&Ephemeris::analytic(), &instant, &place, tolerance);
+    Night::of(sky.unwrap(), catalogs.stars().unwrap(), &Atmosphere::default())
+}
+
+#[test]
+fn the_index_finds_every_star_of_a_view_and_no_other_in_any_millennium() {
+    for utc in ["-3000-03-01T04:00:00Z", "2026-08-13T04:30:00Z", "3900-01-01T06:00:00Z"] {
+        let night = night(utc, 35.0);
+        let all: Vec<LitObject> = night.lit_stars().collect();
+        for (azimuth_deg, altitude_deg, radius_deg, faintest) in [
+            (0.0, 90.0, 180.0, None),
+            (150.0, 35.0, 50.0, None),
+            (300.0, 1.0, 4.0, None),
+            (77.0, -4.0, 6.0, None),
+            (200.0, 60.0, 0.7, None),
+            (10.0, 20.0, 40.0, Some(Magnitude(4.5))),
+            (180.0, -60.0, 30.0, None),
+        ] {
+            let centre = Dir::from_azimuth_altitude(
+                Angle::from_deg(azimuth_deg),
+                Angle::from_deg(altitude_deg),
+            );
+            let radius = Angle::from_deg(radius_deg);
+            let number = |star: &LitObject| match star.kind {
+                Kind::Star(number) => number,
+                _ => panic!("{star:?} is no star"),
+            };
+            let mut found = night.stars_in(centre, radius, faintest);
+            found.sort_by_key(number);
+            let is_wanted = |star: &&LitObject| {
+                star.apparent.separation(centre) <= radius
+                    && star.apparent.altitude() >= night.horizon
+                    && faintest.is_none_or(|limit| star.magnitude.0 <= limit.0)
+            };
+            let wanted: Vec<LitObject> = all.iter().filter(is_wanted).cloned().collect();
+            found.retain(|star| star.apparent.altitude() >= night.horizon);
+            let what = format!("{utc} {azimuth_deg} {altitude_deg} {radius_deg}");
+            assert_eq!(found.len(), wanted.len(), "{what}");
+            // The same stars, in the same places, with the same light.
+            assert!(found == wanted, "{what}");
+        }
+    }
+}
+
+#[test]
+fn every_star_of_a_search_is_found_or_accounted_for() {
+    let night = night("2026-08-13T04:30:00Z", 35.0);
+    let search = |altitude_deg, radius_deg, limit: Option<f64>, drowned: Option<f64>| {
+        let centre = Dir::from_azimuth_altitude(Angle::ZERO, Angle::from_deg(altitude_deg));
+        let radius = Angle::from_deg(radius_deg);
+        let (limit, drowned) = (limit.map(Magnitude), drowned.map(Magnitude));
+        let found = night.search_stars(&StarSearch { centre, radius, limit, drowned });
+        let left = found.fainter_than_limit + found.below_horizon + found.out_of_view;
+        assert_eq!(found.stars.len() + left + found.drowned, night.stars.len());
+        found
+    };
+    let half = search(90.0, 180.0, None, None);
+    assert!(half.stars.len() > 4000 && half.below_horizon > 4000 && half.out_of_view == 0);
+    assert!(search(30.0, 40.0, Some(2.0), None).fainter_than_limit > 9000);
+    let by_day = search(30.0, 40.0, None, Some(-4.0));
+    assert!(by_day.stars.is_empty() && by_day.drowned > 500);
+    assert!(search(-80.0, 30.0, None, None).stars.is_empty());
+}
+
+#[test]
+fn light_of_stars_is_kept_for_the_same_air_and_place_alone() {
+    let first = night("2026-08-13T04:30:00Z", 35.0);
+    let kept: *const _ = first.starlight();
+    let second = night("2026-08-13T04:31:00Z", 36.0).keeping_starlight_of(&first);
+    assert!(std::ptr::eq(kept, second.starlight()));
+    let mut hazy = night("2026-08-13T04:31:00Z", 35.0);
+    hazy.air.aerosol.optical_depth_550 = 0.4;
+    assert!(!std::ptr::eq(kept, hazy.keeping_starlight_of(&first).starlight()));
+}
+
+#[test]
+fn arcturus_moves_through_space_for_millennia() {
+    let stars = Catalogs::locate(None).unwrap().stars().unwrap();
+    let arcturus = stars.iter().find(|star| star.name.as_deref() == Some("Arcturus")).unwrap();
+    // In parsecs, with 4.740 57 km/s for one arcsecond a year at one parsec.
+    let (ra, dec) = (arcturus.dir_j2000.longitude(), arcturus.dir_j2000.latitude());
+    let (sin_ra, cos_ra) = ra.rad().sin_cos();
+    let (sin_dec, cos_dec) = dec.rad().sin_cos();
+    let out = DVec3::new(cos_dec * cos_ra, cos_dec * sin_ra, sin_dec);
+    let east = DVec3::new(-sin_ra, cos_ra, 0.0);
+    let north = DVec3::new(-sin_dec * cos_ra, -sin_dec * sin_ra, cos_dec);
+    let parsecs = 1.0 / arcturus.parallax_arcsec;
+    let across_km_s = |arcsec_yr: f64| 4.740_57 * arcsec_yr * parsecs;
+    let velocity_km_s = out * arcturus.radial_velocity_km_s
+        + east * across_km_s(arcturus.proper_motion_ra_arcsec_yr)
+        + north * across_km_s(arcturus.proper_motion_dec_arcsec_yr);
+    // A kilometre a second is 1.022 712e-6 parsecs a Julian year.
+    let years = -5000.0;
+    let then = out * parsecs + velocity_km_s * (1.022_712e-6 * years);
+    let tdb = JulianDate::from_jd(2_451_545.0 + 365.25 * years);
+    let moved = SpaceMotion::from(arcturus).direction(tdb);
+    let off = moved.separation(Dir::from_vector(then));
+    // The constants have six digits, the way is 3 degrees.
+    assert!(off.arcsec() < 0.05, "{}", off.arcsec());
+    let way = moved.separation(arcturus.dir_j2000).deg();
+    assert!((3.0..3.3).contains(&way), "{way}");
 }

@@ -4,10 +4,13 @@
 //! Its 14 entries without a position (novae, clusters and the like that kept their HR number)
 //! are left out. Proper motion in right ascension is on a great circle already (times the cosine
 //! of declination). Parallaxes that are not positive say "too far to measure" and become 0;
-//! dynamical parallaxes are used as they are.
+//! dynamical parallaxes are used as they are. A number alone in the field of variable stars is one of the
+//! New Catalogue of Suspected Variable Stars. Of companions the distance and the difference of magnitudes
+//! are taken; position angles the catalogue does not have.
 
 use std::collections::HashMap;
 
+use super::Companion;
 use super::colour::b_v_from_spectral_type;
 use super::csv::{self, RowError};
 use super::stars::StarRecord;
@@ -174,7 +177,29 @@ fn record(row: &[&str]) -> Result<Option<StarRecord>, String> {
         designation: designation(name)?,
         name: None,
         spectral_type: spectral_type.to_owned(),
+        variable: variable(row[18]),
+        companion: companion(row[22], row[21])?,
     }))
+}
+
+/// What a variable star is called.
+fn variable(field: &str) -> Option<String> {
+    let is_number = !field.is_empty() && field.bytes().all(|byte| byte.is_ascii_digit());
+    match is_number {
+        true => Some(format!("NSV {field}")),
+        false => Some(field.trim().to_owned()).filter(|name| !name.is_empty()),
+    }
+}
+
+/// A companion at a distance, arcsec, fainter by so many magnitudes; none without a distance.
+fn companion(separation: &str, difference: &str) -> Result<Option<Companion>, String> {
+    let number = |field: &str, what| match field.trim() {
+        "" => Ok(None),
+        field => parse::<f64>(field, what).map(Some),
+    };
+    let magnitude_difference = number(difference, "difference of magnitudes")?;
+    let separation = number(separation, "distance of a companion")?;
+    Ok(separation.map(|separation_arcsec| Companion { separation_arcsec, magnitude_difference }))
 }
 
 fn zero_if_empty(field: &str, what: &str) -> Result<f64, String> {
@@ -220,6 +245,17 @@ mod tests {
         assert!((sirius.ra_rad.to_degrees() - 101.287083).abs() < 1e-12);
         assert_eq!((sirius.v, sirius.b_v, sirius.b_v_estimated), (-1.46, 0.0, false));
         assert_eq!((sirius.parallax_arcsec, sirius.radial_velocity_km_s), (0.375, -8.0));
+        assert_eq!(sirius.variable, None);
+        let companion = Companion { separation_arcsec: 11.2, magnitude_difference: Some(10.3) };
+        assert_eq!(sirius.companion, Some(companion));
+        let other = row(|fields| {
+            (fields[18], fields[21], fields[22]) = ("33", "", "0.0");
+        });
+        let other = other.unwrap().unwrap();
+        assert_eq!(other.variable.as_deref(), Some("NSV 33"));
+        let close = Companion { separation_arcsec: 0.0, magnitude_difference: None };
+        assert_eq!(other.companion, Some(close));
+        assert_eq!(row(|fields| fields[22] = "").unwrap().unwrap().companion, None);
     }
 
     #[test]

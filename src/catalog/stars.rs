@@ -18,19 +18,24 @@
 //!     71  u32+u8 designation: offset and length in the text, length 0 for none
 //!     76  u32+u8 name approved by the IAU, likewise
 //!     81  u32+u8 spectral type, likewise
+//!     86  u32+u8 name as a variable star, likewise
+//!     91  f64    distance of a companion, arcsec, -1 for none
+//!     99  f64    how much fainter it is, mag, -1 for unknown
 //! ```
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::RangeInclusive;
 
-use super::Star;
 use super::seal::{self, Kind};
+use super::{Companion, Star};
 use crate::frame::Dir;
 use crate::units::{Angle, Magnitude};
 
-pub(super) const KIND: Kind = Kind { magic: b"NOCTSTAR", version: 1 };
-const RECORD_LEN: usize = 86;
+pub(super) const KIND: Kind = Kind { magic: b"NOCTSTAR", version: 2 };
+const RECORD_LEN: usize = 107;
+/// What stands for a number that is not known.
+const UNKNOWN: f64 = -1.0;
 
 /// What a star of this catalogue may be. The extremes in it are V -1.46 (HR 2491) and 7.96,
 /// B-V -0.28 and 5.74 (HR 1607), 6.6 arcsec/yr, 0.751 arcsec, -140 and +289 km/s.
@@ -38,6 +43,8 @@ const V_RANGE: RangeInclusive<f64> = -2.0..=10.0;
 const B_V_RANGE: RangeInclusive<f64> = -0.6..=7.0;
 const PROPER_MOTION_RANGE_ARCSEC_YR: RangeInclusive<f64> = -11.0..=11.0;
 const PARALLAX_RANGE_ARCSEC: RangeInclusive<f64> = 0.0..=1.0;
+const SEPARATION_RANGE_ARCSEC: RangeInclusive<f64> = 0.0..=3600.0;
+const DIFFERENCE_RANGE: RangeInclusive<f64> = 0.0..=20.0;
 const RADIAL_VELOCITY_RANGE_KM_S: RangeInclusive<f64> = -1000.0..=1000.0;
 
 /// A star as the file holds it: numbers only, without frames.
@@ -64,6 +71,8 @@ pub struct StarRecord {
     pub designation: Option<String>,
     pub name: Option<String>,
     pub spectral_type: String,
+    pub variable: Option<String>,
+    pub companion: Option<Companion>,
 }
 
 impl StarRecord {
@@ -93,6 +102,13 @@ impl StarRecord {
         within("radial velocity (km/s)", self.radial_velocity_km_s, RADIAL_VELOCITY_RANGE_KM_S)?;
         within("V", self.v, V_RANGE)?;
         within("B-V", self.b_v, B_V_RANGE)?;
+        if let Some(companion) = self.companion {
+            let separation = companion.separation_arcsec;
+            within("a companion at (arcsec)", separation, SEPARATION_RANGE_ARCSEC)?;
+            if let Some(fainter) = companion.magnitude_difference {
+                within("a companion fainter by (mag)", fainter, DIFFERENCE_RANGE)?;
+            }
+        }
         if self.spectral_type.is_empty() {
             return Err(format!("HR {hr} has no spectral type"));
         }
@@ -118,6 +134,8 @@ impl From<StarRecord> for Star {
             magnitude: Magnitude(record.v),
             b_v: record.b_v,
             spectral_type: record.spectral_type,
+            variable: record.variable,
+            companion: record.companion,
         }
     }
 }
@@ -150,11 +168,17 @@ pub fn encode(records: &[StarRecord]) -> Result<Vec<u8>, String> {
             record.designation.as_deref().unwrap_or(""),
             record.name.as_deref().unwrap_or(""),
             record.spectral_type.as_str(),
+            record.variable.as_deref().unwrap_or(""),
         ] {
             let (offset, length) = text.place(string)?;
             payload.extend(offset.to_le_bytes());
             payload.push(length);
         }
+        let companion = record.companion;
+        let separation = companion.map_or(UNKNOWN, |c| c.separation_arcsec);
+        let difference = companion.and_then(|c| c.magnitude_difference).unwrap_or(UNKNOWN);
+        payload.extend(separation.to_le_bytes());
+        payload.extend(difference.to_le_bytes());
     }
     let counts = [u32_from(records.len())?, u32_from(RECORD_LEN)?, u32_from(text.bytes.len())?];
     payload.extend(text.bytes);
@@ -204,7 +228,11 @@ fn record_from_bytes(bytes: &[u8], text: &str) -> Result<StarRecord, String> {
             .map(str::to_owned)
             .ok_or_else(|| format!("HR {hr} points outside the text"))
     };
-    let [designation, name, spectral_type] = [string()?, string()?, string()?];
+    let [designation, name, spectral_type, variable] = [string()?, string()?, string()?, string()?];
+    let mut known = || Some(f64::from_le_bytes(fields.take())).filter(|&value| value != UNKNOWN);
+    let (separation, magnitude_difference) = (known(), known());
+    let companion =
+        separation.map(|separation_arcsec| Companion { separation_arcsec, magnitude_difference });
     Ok(StarRecord {
         hr,
         hip: (hip != 0).then_some(hip),
@@ -220,6 +248,8 @@ fn record_from_bytes(bytes: &[u8], text: &str) -> Result<StarRecord, String> {
         designation: (!designation.is_empty()).then_some(designation),
         name: (!name.is_empty()).then_some(name),
         spectral_type,
+        variable: (!variable.is_empty()).then_some(variable),
+        companion,
     })
 }
 
@@ -295,6 +325,11 @@ mod tests {
             designation: Some("α CMa".into()),
             name: Some("Sirius".into()),
             spectral_type: "A1Vm".into(),
+            variable: Some("NSV 17173".into()),
+            companion: Some(Companion {
+                separation_arcsec: 11.2,
+                magnitude_difference: Some(10.3),
+            }),
         };
         let plain = StarRecord {
             hr: 2492,
@@ -302,6 +337,8 @@ mod tests {
             b_v_estimated: true,
             designation: None,
             name: None,
+            variable: None,
+            companion: Some(Companion { separation_arcsec: 0.0, magnitude_difference: None }),
             ..sirius.clone()
         };
         vec![sirius, plain]
@@ -317,14 +354,14 @@ mod tests {
     #[test]
     fn a_string_that_two_stars_share_is_stored_once() {
         let bytes = encode(&records()).unwrap();
-        let text_len = "α CMa".len() + "Sirius".len() + "A1Vm".len();
+        let text_len = "α CMa".len() + "Sirius".len() + "A1Vm".len() + "NSV 17173".len();
         assert_eq!(bytes.len(), seal::HEADER_LEN + 2 * RECORD_LEN + text_len);
     }
 
     #[test]
     fn impossible_values_are_refused_in_a_sealed_file_too() {
         type Spoil = fn(&mut StarRecord);
-        let spoils: [(Spoil, &str); 9] = [
+        let spoils: [(Spoil, &str); 10] = [
             (|star| star.hr = 0, "HR 0"),
             (|star| star.ra_rad = -1e-9, "right ascension"),
             (|star| star.dec_rad = f64::NAN, "declination"),
@@ -333,6 +370,13 @@ mod tests {
             (|star| star.radial_velocity_km_s = f64::INFINITY, "radial velocity"),
             (|star| star.v = -26.7, "V"),
             (|star| star.b_v = 9.0, "B-V"),
+            (
+                |star| {
+                    let far = Companion { separation_arcsec: 1e5, magnitude_difference: None };
+                    star.companion = Some(far);
+                },
+                "a companion",
+            ),
             (|star| star.spectral_type.clear(), "spectral type"),
         ];
         for (spoil, what) in spoils {

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 
 use crate::air::Atmosphere;
 use crate::catalog::{Catalogs, MoonFeature};
@@ -35,6 +36,9 @@ pub struct ObjectsArgs {
     /// Only objects at least this bright
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     magnitude_limit: Option<f64>,
+    /// Write one JSON array, with spectral types, variables and companions of stars
+    #[arg(long)]
+    json: bool,
     /// Instant: a date and time, `now` or `tonight`
     #[arg(long, default_value = "now", value_name = "TIME", allow_hyphen_values = true)]
     at: String,
@@ -102,32 +106,17 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
             args.query
         )));
     }
+    if args.json {
+        return write_json(args, &night, found, is_somewhere, out);
+    }
     write!(out, "{:<26} {:<8} {:<8} {:>6} {:>6}", "name", "number", "known as", "V", "B-V")?;
     match is_somewhere {
         true => writeln!(out, " {:>9} {:>9} {:>9} wind", "azimuth", "altitude", "seen at")?,
         false => writeln!(out)?,
     }
-    for object in found {
-        // A star is lit only if its magnitude and its kind are wanted.
-        let is_asked_for =
-            |magnitude: Magnitude| args.magnitude_limit.is_none_or(|limit| magnitude.0 <= limit);
-        let object = match object {
-            Called::Near(object) => object.clone(),
-            Called::Star(index) => {
-                let is_kind = args.kind.is_none_or(|kind| kind == KindArg::Star);
-                if !is_kind || !is_asked_for(night.stars[index].magnitude) {
-                    continue;
-                }
-                night.star(index)
-            }
-        };
+    for called in found {
+        let Some(object) = wanted(args, &night, called) else { continue };
         let object = &object;
-        let wanted = args.kind.is_none_or(|kind| kind.is(object))
-            && is_asked_for(object.magnitude)
-            && (!args.up || object.apparent.altitude() >= night.horizon);
-        if !wanted {
-            continue;
-        }
         let b_v = match object.kind {
             Kind::Star(index) => format!("{:.2}", night.stars[index].b_v),
             Kind::Body(_) | Kind::Satellite(_) => String::new(),
@@ -163,6 +152,94 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         }
         writeln!(out)?;
     }
+    Ok(())
+}
+
+/// The object, if it is of the kind that is asked for, bright enough and up. A star is lit only if its
+/// magnitude and its kind are.
+fn wanted(args: &ObjectsArgs, night: &Night, called: Called) -> Option<LitObject> {
+    let is_bright =
+        |magnitude: Magnitude| args.magnitude_limit.is_none_or(|limit| magnitude.0 <= limit);
+    let object = match called {
+        Called::Near(object) => object.clone(),
+        Called::Star(index) => {
+            let is_kind = args.kind.is_none_or(|kind| kind == KindArg::Star);
+            if !is_kind || !is_bright(night.stars[index].magnitude) {
+                return None;
+            }
+            night.star(index)
+        }
+    };
+    let is_wanted = args.kind.is_none_or(|kind| kind.is(&object))
+        && is_bright(object.magnitude)
+        && (!args.up || object.apparent.altitude() >= night.horizon);
+    is_wanted.then_some(object)
+}
+
+/// An object as a catalogue has it, and where it stands. The keys are added to, never renamed.
+#[derive(Debug, Serialize)]
+struct ListedObject {
+    name: String,
+    catalogue: Option<String>,
+    known_as: Option<String>,
+    magnitude_v: f64,
+    /// Of a star, as what follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    b_v: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spectral_type: Option<String>,
+    /// What it is called as a variable star.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variable: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    companion_separation_arcsec: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    companion_magnitude_difference: Option<f64>,
+    /// If a place was given, as what follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    azimuth_deg: Option<f64>,
+    /// Without air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    altitude_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    apparent_altitude_deg: Option<f64>,
+}
+
+fn write_json(
+    args: &ObjectsArgs,
+    night: &Night,
+    found: Vec<Called>,
+    is_somewhere: bool,
+    out: &mut impl Write,
+) -> Result<(), CliError> {
+    let listed: Vec<ListedObject> = found
+        .into_iter()
+        .filter_map(|called| wanted(args, night, called))
+        .map(|object| {
+            let star = match object.kind {
+                Kind::Star(index) => Some(&night.stars[index]),
+                Kind::Body(_) | Kind::Satellite(_) => None,
+            };
+            let companion = star.and_then(|star| star.companion);
+            let here = |angle: Angle| is_somewhere.then(|| angle.deg());
+            ListedObject {
+                name: night.label(&object),
+                catalogue: star.map(|star| format!("HR {}", star.hr)),
+                known_as: star.and_then(|star| star.designation.clone()),
+                magnitude_v: object.magnitude.0,
+                b_v: star.map(|star| star.b_v),
+                spectral_type: star.map(|star| star.spectral_type.clone()),
+                variable: star.and_then(|star| star.variable.clone()),
+                companion_separation_arcsec: companion.map(|c| c.separation_arcsec),
+                companion_magnitude_difference: companion.and_then(|c| c.magnitude_difference),
+                azimuth_deg: here(object.dir.azimuth()),
+                altitude_deg: here(object.dir.altitude()),
+                apparent_altitude_deg: here(object.apparent.altitude()),
+            }
+        })
+        .collect();
+    serde_json::to_writer_pretty(&mut *out, &listed).map_err(std::io::Error::from)?;
+    writeln!(out)?;
     Ok(())
 }
 

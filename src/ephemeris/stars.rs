@@ -248,6 +248,8 @@ mod tests {
             magnitude: Magnitude(0.0),
             b_v: 0.0,
             spectral_type: String::new(),
+            variable: None,
+            companion: None,
         }
     }
 
