@@ -26,5 +26,6 @@ pub mod star_colour;
 pub mod star_light;
 pub mod star_spectrum;
 pub mod sun;
+pub mod zodiacal;
 
 pub use point_light::PointLight;
