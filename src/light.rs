@@ -15,6 +15,7 @@ pub mod limb_law;
 pub mod moon;
 pub mod moon_shadow;
 pub mod night;
+pub mod photometry;
 pub mod planets;
 pub mod point_light;
 pub mod satellites;

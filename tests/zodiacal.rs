@@ -109,7 +109,9 @@ fn near_the_sun_it_grows_and_stays_finite() {
         for step in (0..=300).rev() {
             let away = f64::from(step) * 0.1;
             let here = at(along * away, up * away);
-            assert!(here >= before && here.is_finite(), "{along} {up} {away}: {here} {before}");
+            // Within the core it is level.
+            let slack = if away < 2.0 { 0.999 } else { 1.0 };
+            assert!(here >= slack * before && here.is_finite(), "{along} {up} {away}: {here}");
             before = here;
         }
     }
@@ -132,14 +134,14 @@ fn it_is_sunlight_reddened() {
     for spectrum in spectra() {
         assert!((spectrum.at_nm(500.0) - 1.0).abs() < 1e-12);
     }
-    // Their Table 19, 90 degrees from the Sun in the ecliptic, W m-2 sr-1 um-1, means over some 10 nm.
+    // Their Table 19, 90 degrees from the Sun in the ecliptic, W m-2 sr-1 um-1: two digits, and without
+    // the lines of the Sun. Means over 20 nm; at 400 nm above the lines of calcium.
     let light = radiance(deg(90.0), deg(0.0));
-    for (nm, expected) in [(400.0, 2.2e-6), (500.0, 2.6e-6), (700.0, 2.0e-6)] {
-        let mean =
-            [-10.0, -5.0, 0.0, 5.0, 10.0].map(|off| light.at_nm(nm + off)).iter().sum::<f64>()
-                / 5.0
-                * 1e3;
-        println!("{nm} nm: {mean:e} {expected:e} {:+.3}", mean / expected - 1.0);
-        assert!((mean / expected - 1.0).abs() < 0.08, "{nm} nm: {mean:e} {expected:e}");
+    for (nm, from_nm, expected, within) in
+        [(400, 400.0, 2.2e-6, 0.06), (500, 490.0, 2.6e-6, 0.02), (700, 690.0, 2.0e-6, 0.06)]
+    {
+        let nodes = [0.0, 5.0, 10.0, 15.0, 20.0].map(|off| light.at_nm(from_nm + off));
+        let off = nodes.iter().sum::<f64>() / 5.0 * 1e3 / expected - 1.0;
+        assert!(off.abs() < within, "{nm} nm: off by {off}");
     }
 }

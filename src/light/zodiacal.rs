@@ -22,7 +22,7 @@
 //! of the Earth from the Sun (8 % over the year).
 //!
 //! *Accuracy.* That of the table, 10 to 15 % in the parts that are well observed. The spectrum meets
-//! their Table 19 at 90 degrees within 8 % from 400 to 700 nm, the coarseness of its two digits aside.
+//! their Table 19 at 90 degrees within 5 % at 400, 500 and 700 nm.
 
 use std::sync::LazyLock;
 
@@ -59,14 +59,17 @@ const CORE_DEG: f64 = 2.67;
 /// the Sun the law is flat, so that it has one value there.
 fn ln_law(longitude_rad: f64, latitude_rad: f64) -> f64 {
     let across = latitude_rad.cos();
-    let towards_sun = across * longitude_rad.cos();
-    let scale = 2.0 / (1.0 + towards_sun).max(1e-9);
-    let along_rad = scale * across * longitude_rad.sin();
-    let up_rad = scale * FLATTENING * latitude_rad.sin();
-    let core = CORE_DEG.to_radians().powi(2);
-    let squared = along_rad * along_rad + up_rad * up_rad + core;
-    let fade = FADE_DEG.to_radians().powi(2);
-    -0.5 * POWER * (squared / (1.0 + squared / fade)).ln()
+    let (along, up) = (across * longitude_rad.sin(), latitude_rad.sin());
+    let towards = across * longitude_rad.cos();
+    let sideways = along * along + up * up;
+    // 1 + towards, exact opposite the Sun.
+    let turned = if towards < 0.0 { sideways / (1.0 - towards) } else { 1.0 + towards };
+    // The square of the distance, and of its unit, both times `turned` squared.
+    let ellipse = 4.0 * (along * along + (FLATTENING * up).powi(2));
+    let unit = turned * turned;
+    let core = CORE_DEG.to_radians().powi(2) * unit;
+    let squared = ellipse.hypot(core);
+    -0.5 * POWER * (squared / (unit + squared / FADE_DEG.to_radians().powi(2))).ln()
 }
 
 /// The rest at a node with its slopes, per degree: along longitude, along latitude, along both.
@@ -289,10 +292,7 @@ mod tests {
                 let at = |k: usize| Angle::from_deg(a[k] + t * (b[k] - a[k]));
                 let got = radiance_500(at(0), at(1)) / UNIT;
                 let over = (got / from.max(to)).max(from.min(to) / got) - 1.0;
-                if over > most {
-                    println!("{a:?} {b:?} {t}: {got}, {over}");
-                    most = over;
-                }
+                most = most.max(over);
             }
         };
         for i in 0..ROWS {
