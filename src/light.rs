@@ -5,6 +5,7 @@
 //! of the ephemeris; what the air takes away is folded in by [`star_light`] and by
 //! [`crate::air::extinction`].
 
+pub mod airglow;
 pub mod belts;
 pub mod corona;
 pub mod diffuse;
@@ -21,6 +22,7 @@ pub mod point_light;
 pub mod satellites;
 pub mod saturn_rings;
 pub mod scintillation;
+pub mod solar_cycle;
 pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;

@@ -5,7 +5,7 @@
 //! Maíz Apellániz 2006, recalled). Zero points: the mean power of a star of magnitude 0 after Bessell,
 //! Castelli & Plez 1998, *A&A* 333, 231, Table A2, of a Vega of 0.03 in V.
 //!
-//! *What the grid cuts off.* B and V lie within 360 to 830 nm. R goes on to 900 nm, with 1.2 % of its
+//! *What the grid cuts off.* B and V lie within 360 to 830 nm. R goes on to 900 nm, with 1.1 % of its
 //! area; the mean is taken over the rest, so that an even spectrum has the right magnitude. Strong
 //! bands of OH beyond 830 nm are missing: a few hundredths of a magnitude of the night sky.
 //!
@@ -13,10 +13,9 @@
 //! (Hoya CM-500); Cinzano 2005, ISTIL Internal Report 9. Its response is broad, half of its peak at 390
 //! and 620 nm. The numbers are recalled from his figure, good to 0.05 of the peak. It tells magnitudes
 //! as if it saw V; makers set it with lamps, to 0.1 magnitudes. Here it reads V for sunlight, the colour
-//! of the natural sky without the airglow. A sky that is redder or bluer by 0.3 in B - V reads 0.05
-//! to 0.1 off.
+//! of the natural sky without the airglow. Light bluer by 0.28 in B - V reads 0.1 brighter.
 //!
-//! *Accuracy.* The Sun has V -26.75, B - V 0.65, V - R 0.36 with Wehrli's spectrum (tested below).
+//! *Accuracy.* The Sun has V -26.76, B - V 0.66, V - R 0.38 with Wehrli's spectrum (tested below).
 
 use std::sync::LazyLock;
 
@@ -240,7 +239,6 @@ mod tests {
     #[test]
     fn the_sun_has_its_magnitudes() {
         let [b, v, r] = Band::ALL.map(|band| magnitude(&sun::irradiance_1au(), band));
-        println!("V {v:.3} B-V {:.3} V-R {:.3}", b - v, v - r);
         assert!((v + 26.74).abs() < 0.03, "{v}");
         assert!((b - v - 0.65).abs() < 0.02, "{}", b - v);
         assert!((v - r - 0.36).abs() < 0.03, "{}", v - r);
@@ -263,8 +261,7 @@ mod tests {
                 .sum()
         };
         let lost = area(830.0, 900.0) / area(550.0, 900.0);
-        println!("R loses {lost}");
-        assert!((lost - 0.012).abs() < 0.002, "{lost}");
+        assert!((lost - 0.011).abs() < 0.001, "{lost}");
     }
 
     #[test]
@@ -275,8 +272,9 @@ mod tests {
         let s10 = s10_v(&(ten * (1.0 / square_degree_sr)));
         assert!((s10 - 1.0).abs() < 3e-3, "{s10}");
         // Leinert's unit for sunlight: 1.28e-8 W m-2 sr-1 um-1 at 500 nm.
+        // That is for a Sun of -26.74; this one is 2 % brighter.
         let at_500 = ten.at_nm(500.0) / square_degree_sr * 1e3;
-        assert!((at_500 / 1.28e-8 - 1.0).abs() < 0.02, "{at_500:e}");
+        assert!((at_500 / 1.28e-8 - 1.0).abs() < 0.04, "{at_500:e}");
     }
 
     #[test]
@@ -284,10 +282,10 @@ mod tests {
         let sunlight = sun::irradiance_1au() * 1e-15;
         let off = |light: &Spectrum| sqm_mag_per_arcsec2(light) - mag_per_arcsec2(light, Band::V);
         assert!(off(&sunlight).abs() < 1e-9);
-        // Twice the slope of Rayleigh's law in magnitudes of B - V: 0.25 bluer, some 0.07 brighter.
+        // Bluer by 0.28 in B - V.
         let blue = sunlight.weighted(|nm| (nm / 550.0).powf(-1.2));
         let colour = mag_per_arcsec2(&blue, Band::B) - mag_per_arcsec2(&blue, Band::V);
-        println!("B-V {colour:.3}, off {:.3}", off(&blue));
+        assert!((colour - 0.38).abs() < 0.02, "{colour}");
         assert!((-0.12..-0.02).contains(&off(&blue)), "{}", off(&blue));
     }
 
