@@ -15,6 +15,10 @@
 //! as if it saw V; makers set it with lamps, to 0.1 magnitudes. Here it reads V for sunlight, the colour
 //! of the natural sky without the airglow. Light bluer by 0.28 in B - V reads 0.1 brighter.
 //!
+//! *Luminance.* `10^((12.58 - V) / 2.5)` cd/m2 (Crumey 2014) is 3.5 % low for sunlight here and 11 % for
+//! the dark sky, whose green line stands where the eye sees best: luminance is better taken from the
+//! spectrum.
+//!
 //! *Accuracy.* The Sun has V -26.76, B - V 0.66, V - R 0.38 with Wehrli's spectrum (tested below).
 
 use std::sync::LazyLock;
