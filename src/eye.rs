@@ -13,6 +13,7 @@
 //! adaptation takes are not here yet.
 
 pub mod glare;
+pub mod limiting_magnitude;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

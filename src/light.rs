@@ -5,6 +5,7 @@
 //! of the ephemeris; what the air takes away is folded in by [`star_light`] and by
 //! [`crate::air::extinction`].
 
+pub mod airglow;
 pub mod belts;
 pub mod corona;
 pub mod diffuse;
@@ -15,16 +16,19 @@ pub mod limb_law;
 pub mod moon;
 pub mod moon_shadow;
 pub mod night;
+pub mod photometry;
 pub mod planets;
 pub mod point_light;
 pub mod satellites;
 pub mod saturn_rings;
 pub mod scintillation;
+pub mod solar_cycle;
 pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
 pub mod star_spectrum;
 pub mod sun;
+pub mod zodiacal;
 
 pub use point_light::PointLight;
