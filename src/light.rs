@@ -11,6 +11,7 @@ pub mod diffuse;
 pub mod disc_light;
 pub mod earth_shadow;
 pub mod earthshine;
+pub mod lamps;
 pub mod limb_law;
 pub mod moon;
 pub mod moon_shadow;
@@ -24,5 +25,6 @@ pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
 pub mod sun;
+pub mod town_glow;
 
 pub use point_light::PointLight;
