@@ -12,6 +12,7 @@ pub mod diffuse;
 pub mod disc_light;
 pub mod earth_shadow;
 pub mod earthshine;
+pub mod lamps;
 pub mod limb_law;
 pub mod moon;
 pub mod moon_shadow;
@@ -30,5 +31,6 @@ pub mod star_light;
 pub mod star_spectrum;
 pub mod sun;
 pub mod zodiacal;
+pub mod town_glow;
 
 pub use point_light::PointLight;

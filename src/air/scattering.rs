@@ -25,6 +25,7 @@
 //! (`tests/twilight.rs`) and a second integration of the source term (`source/tests.rs`).
 
 pub mod above;
+pub mod below;
 pub(super) mod columns;
 mod field;
 mod ground;

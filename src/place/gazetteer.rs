@@ -17,6 +17,7 @@ use chrono_tz::Tz;
 use thiserror::Error;
 
 use crate::place::{HEIGHT_RANGE_M, Place, PlaceError};
+use crate::units::Angle;
 use fold::{folded, folded_german, has_word_start, has_words};
 
 /// The columns of a gazetteer, in order; the first line of the text.
@@ -31,6 +32,9 @@ pub const COLUMNS: [&str; 9] = [
     "elevation_m",
     "timezone",
 ];
+
+/// Of a sphere as large as the Earth, kilometres.
+const MEAN_RADIUS_KM: f64 = 6371.0;
 
 /// How many near matches a message names.
 const SUGGESTIONS: usize = 5;
@@ -116,6 +120,35 @@ impl City {
     }
 }
 
+/// A place of the list as seen from another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbour<'a> {
+    pub city: &'a City,
+    /// Along the ground.
+    pub distance_km: f64,
+    /// The azimuth in which it lies, north through east, in `[0, 360)` degrees.
+    pub bearing: Angle,
+}
+
+impl City {
+    /// How far away and in which azimuth it lies from a place: on a sphere, 0.5 % and 0.3 degrees at
+    /// most from the ellipsoid.
+    pub fn seen_from(&self, place: &Place) -> Neighbour<'_> {
+        let (sin_here, cos_here) = place.latitude.sin_cos();
+        let (sin_there, cos_there) = Angle::from_deg(self.latitude_deg).sin_cos();
+        let (sin_east, cos_east) =
+            (Angle::from_deg(self.longitude_deg) - place.longitude).sin_cos();
+        let east = cos_there * sin_east;
+        let north = cos_here * sin_there - sin_here * cos_there * cos_east;
+        let up = sin_here * sin_there + cos_here * cos_there * cos_east;
+        Neighbour {
+            city: self,
+            distance_km: MEAN_RADIUS_KM * east.hypot(north).atan2(up),
+            bearing: Angle::from_rad(east.atan2(north)).positive(),
+        }
+    }
+}
+
 /// A name and what narrows it, folded.
 struct Query {
     /// With accents dropped; and with umlauts written out, if that is something else.
@@ -168,6 +201,21 @@ impl Gazetteer {
     /// All places, in the order of the list.
     pub fn cities(&self) -> &[City] {
         &self.cities
+    }
+
+    /// All places within some kilometres of one, in the order of the list.
+    pub fn around<'a>(
+        &'a self,
+        place: &'a Place,
+        within_km: f64,
+    ) -> impl Iterator<Item = Neighbour<'a>> {
+        // A degree of latitude is 111 km: most of the list needs no trigonometry.
+        let within_deg = within_km / 110.0;
+        self.cities
+            .iter()
+            .filter(move |city| (city.latitude_deg - place.latitude.deg()).abs() <= within_deg)
+            .map(|city| city.seen_from(place))
+            .filter(move |neighbour| neighbour.distance_km <= within_km)
     }
 
     /// The place that people call by this name; the most populous if there are several.
@@ -404,6 +452,28 @@ Coats Observatory,Scotland,Northern Europe,observatory,0,55.84562,-4.43117,0,
         // Neither the elevation of Tromso nor the clock of Coats Observatory is known.
         assert_eq!(list().find("Tromso").unwrap().height_m, 0.0);
         assert_eq!(list().find("Coats").unwrap().time_zone, None);
+    }
+
+    #[test]
+    fn places_around_have_distance_and_bearing() {
+        let list = list();
+        let flagstaff = list.find("flagstaff").unwrap();
+        let around: Vec<Neighbour> = list.around(&flagstaff, 400.0).collect();
+        let names: Vec<&str> = around.iter().map(|n| n.city.name.as_str()).collect();
+        assert_eq!(names, ["Flagstaff", "Kitt Peak National Observatory"]);
+        assert!(around[0].distance_km < 1e-6);
+        // By the inverse formula of Vincenty on WGS84: 361.8 km at 187 degrees.
+        assert!((around[1].distance_km - 362.0).abs() < 2.0, "{}", around[1].distance_km);
+        assert!((around[1].bearing.deg() - 186.8).abs() < 0.5, "{}", around[1].bearing.deg());
+        // Over the date line and over the pole there is a way as well.
+        let chatham = Place::new(-44.0, -176.5, 0.0).unwrap();
+        let tokyo = &list.cities()[0];
+        let seen = tokyo.seen_from(&chatham);
+        assert!((9000.0..10_500.0).contains(&seen.distance_km), "{}", seen.distance_km);
+        assert!((300.0..340.0).contains(&seen.bearing.deg()), "{}", seen.bearing.deg());
+        let pole = Place::new(90.0, 0.0, 0.0).unwrap();
+        let quarter = tokyo.seen_from(&pole).distance_km;
+        assert!((quarter - (90.0 - 35.6895) * 111.195).abs() < 1.0, "{quarter}");
     }
 
     #[test]

@@ -1,0 +1,117 @@
+//! The artificial sky on a grid of altitudes and azimuths.
+
+use std::f64::consts::PI;
+
+use super::*;
+
+/// Rows, from the horizon to the zenith, and columns, from north through east.
+const ROWS: usize = 91;
+pub(super) const COLUMNS: usize = 180;
+/// Well below any light; what logarithms are taken of.
+const DARK: f64 = 1e-300;
+
+/// Light at every degree of altitude and every second of azimuth, W m-2 sr-1 per watt of lamp light
+/// at each of the nodes.
+#[derive(Debug)]
+pub(super) struct Dome {
+    nodes: Vec<NodeLight>,
+}
+
+/// Azimuth of a column.
+pub(super) fn azimuth_of(column: usize) -> f64 {
+    2.0 * PI * column as f64 / COLUMNS as f64
+}
+
+impl Dome {
+    /// From the light at the altitudes of the tables, a row of columns for each, or one for all.
+    pub fn new(rows: &[Vec<NodeLight>]) -> Dome {
+        let logs: Vec<Vec<NodeLight>> = rows
+            .iter()
+            .map(|row| row.iter().map(|nodes| nodes.map(|v| v.max(DARK).ln())).collect())
+            .collect();
+        let nodes = (0..ROWS * COLUMNS)
+            .into_par_iter()
+            .map(|i| {
+                let (altitude_deg, column) = ((i / COLUMNS) as f64, i % COLUMNS);
+                let at = |row: usize| &logs[row][column % logs[row].len()];
+                cubic(altitude_deg, at)
+            })
+            .collect();
+        Dome { nodes }
+    }
+
+    pub fn nodes(&self) -> &[NodeLight] {
+        &self.nodes
+    }
+
+    /// The four nodes around a direction, with their weights.
+    #[inline]
+    pub fn around(&self, altitude: Angle, azimuth: Angle) -> impl Iterator<Item = (usize, f64)> {
+        // Written so that a direction that is no number is the north.
+        let row = altitude.deg().max(0.0).min((ROWS - 1) as f64);
+        let turn = azimuth.rad() / (2.0 * PI);
+        let column = ((turn - turn.floor()) * COLUMNS as f64).max(0.0);
+        let low = (row as usize).min(ROWS - 2);
+        let (left, up, east) = (column as usize, row - low as f64, column.fract());
+        let (left, right) = (left % COLUMNS, (left + 1) % COLUMNS);
+        let (here, above) = (low * COLUMNS, (low + 1) * COLUMNS);
+        [
+            (here + left, (1.0 - up) * (1.0 - east)),
+            (here + right, (1.0 - up) * east),
+            (above + left, up * (1.0 - east)),
+            (above + right, up * east),
+        ]
+        .into_iter()
+    }
+
+    /// The solid angle of each node as level ground sees it, steradians; their sum is pi.
+    pub fn projected_solid_angles(&self) -> impl Iterator<Item = f64> {
+        (0..ROWS).flat_map(|row| {
+            // Light is straight between rows; the integral of sine times cosine under a hat.
+            let hat = |other: f64| {
+                (0..8)
+                    .map(|k| {
+                        let t = (f64::from(k) + 0.5) / 8.0;
+                        let altitude = (row as f64 + other * t).to_radians();
+                        (1.0 - t) * altitude.sin() * altitude.cos() / 8.0 * 1f64.to_radians()
+                    })
+                    .sum::<f64>()
+            };
+            let below = if row > 0 { hat(-1.0) } else { 0.0 };
+            let above = if row + 1 < ROWS { hat(1.0) } else { 0.0 };
+            std::iter::repeat_n((below + above) * 2.0 * PI / COLUMNS as f64, COLUMNS)
+        })
+    }
+}
+
+/// Between the altitudes of the tables by Hermite's cubic with slopes of the parabola through three
+/// neighbours, in logarithms.
+fn cubic<'a>(altitude_deg: f64, at: impl Fn(usize) -> &'a NodeLight) -> NodeLight {
+    let x = &ALTITUDES_DEG;
+    let last = x.len() - 1;
+    let i = x.partition_point(|&a| a <= altitude_deg).clamp(1, last) - 1;
+    let width = x[i + 1] - x[i];
+    let t = (altitude_deg - x[i]) / width;
+    let slope = |j: usize, k: usize| {
+        let secant = |j: usize| (at(j + 1)[k] - at(j)[k]) / (x[j + 1] - x[j]);
+        if j == 0 {
+            return secant(0);
+        }
+        if j == last {
+            // The zenith is level.
+            return 0.0;
+        }
+        let (before, after) = (x[j] - x[j - 1], x[j + 1] - x[j]);
+        (secant(j - 1) * after + secant(j) * before) / (before + after)
+    };
+    std::array::from_fn(|k| {
+        let (a, b) = (at(i)[k], at(i + 1)[k]);
+        let (from, to) = (slope(i, k) * width, slope(i + 1, k) * width);
+        let (t2, t3) = (t * t, t * t * t);
+        let log = (2.0 * t3 - 3.0 * t2 + 1.0) * a
+            + (t3 - 2.0 * t2 + t) * from
+            + (3.0 * t2 - 2.0 * t3) * b
+            + (t3 - t2) * to;
+        if log <= DARK.ln() * 0.99 { 0.0 } else { log.exp() }
+    })
+}
