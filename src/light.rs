@@ -23,6 +23,7 @@ pub mod solar_eclipse;
 pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
+pub mod starlight;
 pub mod sun;
 
 pub use point_light::PointLight;
