@@ -6,10 +6,12 @@
 
 mod almanac;
 mod atmosphere;
+mod brightness;
 mod draw;
 mod ephemeris;
 mod error;
 mod look;
+mod night_glow;
 mod objects;
 mod outputs;
 mod place;
@@ -60,6 +62,8 @@ enum Command {
     Atmosphere(atmosphere::AtmosphereArgs),
     /// Say how bright the sky is, for rows of a file: radiance, luminance, irradiance of the ground
     Radiance(radiance::RadianceArgs),
+    /// Measure the sky: how bright it is in a direction, and what makes it so
+    Brightness(brightness::BrightnessArgs),
     /// Say which graphics adapter draws the pictures
     #[cfg(feature = "gpu")]
     Adapter,
@@ -152,6 +156,7 @@ fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
         Command::Almanac(args) => almanac::run(args, &catalogs, out),
         Command::Ephemeris(args) => ephemeris::run(args, &catalogs, out),
         Command::Radiance(args) => radiance::run(args, &catalogs, out),
+        Command::Brightness(args) => brightness::run(args, &catalogs, out),
         // Done above: no catalogue is needed.
         Command::Atmosphere(_) => Ok(()),
         #[cfg(feature = "gpu")]

@@ -8,7 +8,7 @@
 pub mod airglow;
 pub mod belts;
 pub mod corona;
-pub mod diffuse;
+pub mod dark_sky;
 pub mod disc_light;
 pub mod earth_shadow;
 pub mod earthshine;
@@ -17,6 +17,7 @@ pub mod limb_law;
 pub mod moon;
 pub mod moon_shadow;
 pub mod night;
+pub mod night_lights;
 pub mod photometry;
 pub mod planets;
 pub mod point_light;
@@ -29,8 +30,9 @@ pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
 pub mod star_spectrum;
+pub mod starlight;
 pub mod sun;
-pub mod zodiacal;
 pub mod town_glow;
+pub mod zodiacal;
 
 pub use point_light::PointLight;

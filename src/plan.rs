@@ -4,6 +4,7 @@
 //! below the horizon is not in it, and a table whose source does not shine is empty.
 
 pub mod body;
+pub mod brightness;
 pub mod classic;
 pub mod corona;
 pub mod dark_sky;
@@ -134,13 +135,7 @@ fn xyzv(channels: &[f64]) -> Xyzv {
 impl SkyPlan {
     /// No light at all.
     pub fn black(horizon: Angle) -> SkyPlan {
-        SkyPlan {
-            horizon,
-            sun: None,
-            sun_left: None,
-            moon: None,
-            dark: dark_sky::no_light(),
-        }
+        SkyPlan { horizon, sun: None, sun_left: None, moon: None, dark: dark_sky::no_light() }
     }
 
     /// The sources and the sides of them that they light. A Moon that shadows the air sends no light.

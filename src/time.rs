@@ -31,7 +31,7 @@ pub mod instant;
 pub mod local;
 pub mod written;
 
-pub use calendar::CivilDateTime;
+pub use calendar::{CivilDateTime, days_in_month};
 pub use clock::{J2000, JulianDate, Tai, Tdb, Tt, Ut1, Utc};
 pub use error::TimeError;
 pub use instant::Instant;

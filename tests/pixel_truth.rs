@@ -11,8 +11,8 @@ use nocturne::ephemeris::Ephemeris;
 use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::eye::Eye;
 use nocturne::frame::{Dir, Horizon};
-use nocturne::light::night_lights::NightGlow;
 use nocturne::light::night::Night;
+use nocturne::light::night_lights::NightGlow;
 use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 use nocturne::sky::SkyState;
 use nocturne::units::Angle;
@@ -57,7 +57,7 @@ fn scene(time: &str, place: &[f64]) -> Scene {
         sky: None,
         scintillation: None,
         night: NightGlow::default(),
-            moon: SceneMoon::default(),
+        moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),

@@ -54,8 +54,7 @@ fn night(scene: &Scene) -> Night {
 fn laid(scene: &Scene) -> (FramePlan, Ledger, Night) {
     let night = night(scene);
     let catalogs = Catalogs::locate(None).unwrap();
-    let (plan, ledger) =
-        lay(&scene.setting().unwrap(), &scene.layers, &night, &catalogs).unwrap();
+    let (plan, ledger) = lay(&scene.setting().unwrap(), &scene.layers, &night, &catalogs).unwrap();
     (plan, ledger, night)
 }
 

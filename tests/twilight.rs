@@ -2,8 +2,8 @@
 
 use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables, reconstruction_matrix};
-use nocturne::light::diffuse::luminance_cd_m2;
 use nocturne::light::moon::{self, MoonView};
+use nocturne::light::photometry::luminance_cd_m2;
 use nocturne::light::spectrum::{FIRST_NM, LEN, STEP_NM, Spectrum, wavelength_nm};
 use nocturne::light::sun;
 use nocturne::units::Angle;

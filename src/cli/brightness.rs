@@ -74,9 +74,10 @@ pub fn run(
     catalogs: &Catalogs,
     out: &mut impl Write,
 ) -> Result<(), CliError> {
-    let place = args.location.find(catalogs)?.ok_or_else(|| {
-        CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned())
-    })?;
+    let place = args
+        .location
+        .find(catalogs)?
+        .ok_or_else(|| CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned()))?;
     let air = args.atmosphere.as_deref().map(atmosphere::find).transpose()?.unwrap_or_default();
     air.validate_at(place.height_m).map_err(|error| CliError::Usage(error.to_string()))?;
     let glow = args.glow.change(NightGlow::default())?;

@@ -38,9 +38,8 @@ pub fn draw(
     // Whether anything can be drawn is known soon, so ask before the long work.
     let renderer = progress.step("graphics adapter", Renderer::new)?;
     let mut kept = Kept::new(Store::of_user());
-    let (plan, ledger) = progress.step("light and air", || {
-        lay_in(setting, &scene.layers, night, catalogs, &mut kept)
-    })?;
+    let (plan, ledger) = progress
+        .step("light and air", || lay_in(setting, &scene.layers, night, catalogs, &mut kept))?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
     let seen = progress.step("seeing", || {

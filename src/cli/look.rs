@@ -21,6 +21,22 @@ pub enum Look {
     Object(String),
 }
 
+impl Look {
+    /// The azimuth that is meant, degrees; none for an object.
+    pub fn azimuth_deg(&self) -> Option<f64> {
+        match self {
+            Look::Azimuth(azimuth) => Some(azimuth.deg()),
+            Look::Zenith => Some(0.0),
+            Look::Object(_) => None,
+        }
+    }
+
+    /// The altitude that is meant, degrees, if it is.
+    pub fn altitude_deg(&self) -> Option<f64> {
+        (*self == Look::Zenith).then_some(90.0)
+    }
+}
+
 impl std::str::FromStr for Look {
     type Err = String;
 

@@ -10,15 +10,16 @@ use crate::air::classic::{ClassicModel, ClassicSky};
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
 use crate::eye::Eye;
-use crate::light::night_lights::NightGlow;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
+use crate::light::night_lights::NightGlow;
 use crate::plan::classic::ClassicLight;
 use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 
 use super::WhereArgs;
 use super::error::CliError;
 use super::look::{self, Look};
+use super::night_glow::NightGlowArgs;
 use super::outputs::Outputs;
 use super::progress::Progress;
 use super::{atmosphere, draw, stage, stats, summary};
@@ -63,6 +64,8 @@ pub struct RenderArgs {
     /// Turbidity of a classic model [default: that of the aerosol]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     turbidity: Option<f64>,
+    #[command(flatten)]
+    glow: NightGlowArgs,
     /// How dark an eclipsed Moon is, Danjon's number: 0, very dark, to 4, bright orange [default: 2.5]
     #[arg(long, value_name = "L", allow_hyphen_values = true)]
     danjon: Option<f64>,
@@ -251,7 +254,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         sky: None,
         scintillation: None,
         night: NightGlow::default(),
-            moon: SceneMoon::default(),
+        moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
         marks: Marks::default(),
@@ -272,6 +275,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         scene.moon.danjon =
             Danjon::new(number).map_err(|error| CliError::Usage(format!("--danjon: {error}")))?;
     }
+    scene.night = args.glow.change(scene.night)?;
     scene.moon.reflectance = args.moon.map_or(scene.moon.reflectance, MoonArg::law);
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);

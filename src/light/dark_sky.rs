@@ -24,6 +24,7 @@
 //! lights themselves err by more, each as its module says, airglow by a factor of 2 from night to
 //! night. Bending of rays is not in van Rhijn's factor: 1 % at the horizon.
 
+use std::fmt;
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
@@ -45,12 +46,6 @@ use crate::air::scattering::{Matrix, SKY_NODES_NM, ScatteringError, reconstructi
 use crate::frame::{Apparent, Dir, Galactic, Helioecliptic, Horizon, Rot};
 use crate::units::{Angle, Xyzv};
 
-/// Luminance of a surface brightness in V, cd/m2: `10^((12.58 - m) / 2.5)`, Crumey 2014, *MNRAS* 442,
-/// 2600. Magnitudes per square arcsecond.
-pub fn luminance_cd_m2(mag_per_arcsec2: f64) -> f64 {
-    10f64.powf((12.58 - mag_per_arcsec2) / 2.5)
-}
-
 /// Nearer to the Sun zodiacal light is scattered as if it were this far from it.
 pub const SCATTERED_FROM: Angle = Angle::from_deg(20.0);
 /// Redness of the zodiacal light that is scattered: that of an elongation of 60 degrees.
@@ -58,6 +53,9 @@ const SCATTERED_REDNESS: f64 = 0.5;
 /// Colour of the starlight that is scattered, and of the stars of the catalogue that are not drawn:
 /// half-way between the bluest and the reddest mix.
 const MIDDLE_COLOUR: f64 = 0.5;
+
+/// Galactic latitude of the dust whose light is scattered.
+const MIDDLE_LATITUDE: Angle = Angle::from_deg(20.0);
 
 /// A light of the dark sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -114,6 +112,12 @@ struct Inner {
     refraction: Refraction,
 }
 
+impl fmt::Debug for NightAir {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "NightAir({:?}, {} m)", self.inner.air, self.inner.height_m)
+    }
+}
+
 impl NightAir {
     /// Degrees to 10, orders to 8.
     const QUALITY: DiffuseQuality =
@@ -162,7 +166,7 @@ impl NightAir {
 }
 
 /// What shines on a dark night. What is left out does not shine.
-#[derive(Clone, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct NightLights {
     pub airglow: Vec<GlowLayer>,
     /// Axes of the zodiacal light.
@@ -186,7 +190,7 @@ impl NightLights {
 }
 
 /// A light while it is scattered.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 struct Scattered {
     component: Component,
     field: DiffuseField,
@@ -197,7 +201,7 @@ struct Scattered {
 }
 
 /// The dark sky over one observer.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct DarkSky {
     air: NightAir,
     lights: NightLights,
@@ -235,7 +239,7 @@ impl DarkSky {
                 of_galaxy.radiance(dir.latitude(), dir.longitude())
             });
             let field = tables.lit_by(&sky);
-            let of_dust = starlight::diffuse_galactic(1.0, starlight::MEAN_LATITUDE);
+            let of_dust = starlight::diffuse_galactic(1.0, MIDDLE_LATITUDE);
             sources.push((Component::Galactic, field.clone(), of_dust));
             sources.push((Component::Starlight, field, star_spectrum(MIDDLE_COLOUR)));
             let even = tables.lit_by(&SkyHarmonics::uniform(1.0));
@@ -314,12 +318,12 @@ impl DarkSky {
     }
 
     /// What arrives of starlight of 1 S10(V) at an apparent altitude, of the bluest and of the reddest
-    /// mix of stars, cd/m2; nothing from below the horizon. And of the light that dust of a galactic
-    /// latitude sends back of it.
+    /// mix of stars, and of what dust sends back, cd/m2; nothing from below the horizon.
     pub fn of_one_s10(&self, altitude: Angle) -> Option<OneS10> {
         let passed = self.air.transmittance(altitude)?;
         let [blue, red] = starlight::spectra_of_s10().map(|spectrum| (spectrum * passed).xyzv());
-        let dust = (starlight::diffuse_galactic(1.0, Angle::ZERO) * passed).xyzv();
+        let in_plane = starlight::diffuse_galactic(1.0, Angle::ZERO) * passed;
+        let dust = in_plane.xyzv() * starlight::diffuse_share(Angle::ZERO).recip();
         Some(OneS10 { blue, red, dust })
     }
 
@@ -422,7 +426,7 @@ pub struct OneS10 {
     /// Of the bluest and the reddest mix of stars.
     pub blue: Xyzv,
     pub red: Xyzv,
-    /// Of what the dust sends back of it.
+    /// Of dust that sends back all of it; see [`starlight::diffuse_share`].
     pub dust: Xyzv,
 }
 
@@ -496,7 +500,7 @@ static SPECTRUM_FROM_NODES: LazyLock<Matrix> = LazyLock::new(|| {
 });
 
 /// A spectrum times a factor that is known at the wavelengths that are solved for.
-fn at_nodes(spectrum: &Spectrum, factors: &[f64]) -> Spectrum {
+pub fn at_nodes(spectrum: &Spectrum, factors: &[f64]) -> Spectrum {
     let factors = SPECTRUM_FROM_NODES.spectrum(factors);
     let node = |nm: f64| ((nm - wavelength_nm(0)) / (wavelength_nm(1) - wavelength_nm(0))).round();
     spectrum.weighted(|nm| factors[node(nm) as usize])

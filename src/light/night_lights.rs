@@ -1,7 +1,5 @@
 //! What shines on a dark night over a place and an instant: settings become lights.
 
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +7,7 @@ use super::airglow::{self, AirglowConditions, GlowLayer};
 use super::lamps::Lamps;
 use super::solar_cycle;
 use super::town_glow::TownLight;
-use crate::frame::{Helioecliptic, Horizon, Icrs, Rot};
+use crate::frame::{Dir, Helioecliptic, Horizon, Icrs, Rot};
 use crate::sky::SkyState;
 use crate::units::Angle;
 
@@ -57,7 +55,9 @@ pub enum NightGlowError {
     SolarFlux(f64),
     #[error(transparent)]
     Towns(#[from] super::town_glow::TownLightError),
-    #[error("the glow of towns is asked for twice; give one of bortle, zenith_mag_per_arcsec2, towns")]
+    #[error(
+        "the glow of towns is asked for twice; give one of bortle, zenith_mag_per_arcsec2, towns"
+    )]
     Twice,
 }
 
@@ -119,14 +119,9 @@ fn local_time_h(sky: &SkyState) -> f64 {
 
 /// Axes of the zodiacal light over a sky: the ecliptic of J2000.0, longitude from the Sun.
 pub fn helioecliptic_from_horizon(sky: &SkyState) -> Rot<Helioecliptic, Horizon> {
-    let pole: crate::frame::Dir<Icrs> =
-        crate::frame::Dir::from_vector(DVec3::new(0.0, -OBLIQUITY.sin(), OBLIQUITY.cos()));
+    let pole: Dir<Icrs> = Dir::from_vector(DVec3::new(0.0, -OBLIQUITY.sin(), OBLIQUITY.cos()));
     let pole = (sky.horizon_from_icrs * pole).vector();
     let towards_sun = sky.sun.dir.vector().reject_from(pole).normalize();
-    let horizon_from_helioecliptic =
-        DMat3::from_cols(towards_sun, pole.cross(towards_sun), pole);
+    let horizon_from_helioecliptic = DMat3::from_cols(towards_sun, pole.cross(towards_sun), pole);
     Rot::claim(horizon_from_helioecliptic.transpose())
 }
-
-/// What is shared between nights: the stars that no catalogue here holds.
-pub type SharedMilkyWay = Arc<crate::catalog::MilkyWay>;

@@ -33,6 +33,12 @@ pub const ARCSEC2_PER_SR: f64 = 4.254_517_029_615_221e10;
 /// V of one star of magnitude 10 in a square degree, per square arcsecond: the unit S10(V).
 pub const S10_V_MAG: f64 = 27.78;
 
+/// Luminance of a surface brightness in V, cd/m2: `10^((12.58 - m) / 2.5)`, Crumey 2014, *MNRAS* 442,
+/// 2600. Magnitudes per square arcsecond.
+pub fn luminance_cd_m2(mag_per_arcsec2: f64) -> f64 {
+    10f64.powf((12.58 - mag_per_arcsec2) / 2.5)
+}
+
 /// A band of Johnson and Cousins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Band {

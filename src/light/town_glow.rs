@@ -35,8 +35,8 @@ use crate::air::scattering::below::{ALTITUDES_DEG, GroundLight, NodeLight};
 use crate::air::scattering::{
     Matrix, SKY_NODES_NM, ScatteringError, SpectralSums, reconstruction_matrix,
 };
-use crate::light::diffuse::luminance_cd_m2;
 use crate::light::lamps::Lamps;
+use crate::light::photometry::luminance_cd_m2;
 use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
 use crate::place::Place;
 use crate::place::gazetteer::City;

@@ -79,7 +79,8 @@ impl SkyBrightness {
     /// The faintest star that a usual observer sees there, as bright as it arrives.
     pub fn limiting_magnitude(&self) -> Magnitude {
         let luminance = self.luminance().y;
-        limiting_magnitude::limiting_magnitude(luminance, limiting_magnitude::USUAL_FIELD_FACTOR)
+        let factor = limiting_magnitude::TYPICAL_FIELD_FACTOR;
+        Magnitude(limiting_magnitude::limiting_magnitude(luminance, factor))
     }
 }
 
@@ -114,8 +115,7 @@ impl<'n> MeasuredSky<'n> {
             kept.air.of(&night.air, night.sky.place.height_m)?;
         }
         let mut ledger = Ledger::default();
-        let lights =
-            dark_sky::lights(glow, layers, night, data, &mut kept.dark_sky, &mut ledger)?;
+        let lights = dark_sky::lights(glow, layers, night, data, &mut kept.dark_sky, &mut ledger)?;
         let (mut dark, mut with_stars) = (None, None);
         if !lights.are_out() {
             let air = kept.dark_sky.air(night)?;
@@ -127,11 +127,7 @@ impl<'n> MeasuredSky<'n> {
     }
 
     /// How bright it is in an apparent direction; below the horizon the ground.
-    pub fn at(
-        &self,
-        dir: Dir<Apparent>,
-        kept: &mut Kept,
-    ) -> Result<SkyBrightness, PlanError> {
+    pub fn at(&self, dir: Dir<Apparent>, kept: &mut Kept) -> Result<SkyBrightness, PlanError> {
         let height_m = self.night.sky.place.height_m;
         let mut sources = vec![(Source::Sun, Spectrum::DARK), (Source::Moon, Spectrum::DARK)];
         let mut meter = Spectrum::DARK;
@@ -168,7 +164,10 @@ impl<'n> MeasuredSky<'n> {
 }
 
 /// The mean over the field of a Sky Quality Meter with lens; what lies below the horizon counts too.
-fn mean_in_meter(axis: Dir<Apparent>, light: impl Fn(Dir<Apparent>) -> Spectrum + Sync) -> Spectrum {
+fn mean_in_meter(
+    axis: Dir<Apparent>,
+    light: impl Fn(Dir<Apparent>) -> Spectrum + Sync,
+) -> Spectrum {
     /// Rings of the field and directions in the first of them; the next have twice, three times as many.
     const RINGS: usize = 6;
     const IN_FIRST: usize = 6;

@@ -15,8 +15,8 @@ use crate::sky::star_index::StarIndex;
 use crate::units::{Angle, Xyzv};
 
 use super::data::SkyData;
-use super::ledger::Ledger;
 use super::lay::SWITCHED_OFF;
+use super::ledger::Ledger;
 use super::milky_way::MilkyWayPlan;
 use super::{DARK_AZIMUTHS, PlanError, SKY_SHAPE, SkyPlan};
 
@@ -80,7 +80,7 @@ impl KeptDarkSky {
 fn glow_of(stars: &StarIndex, fainter_than: f64) -> StarGlow {
     let axes = galactic_from_icrs();
     let faint = stars.iter().filter(|star| star.magnitude.0 > fainter_than);
-    StarGlow::of(faint.map(|star| (axes * star.position, star.magnitude.illuminance())))
+    StarGlow::of(faint.map(|star| (axes * star.dir_j2000, star.magnitude.illuminance())))
 }
 
 /// What shines on a night, by the layers that are wanted; says in the ledger what does not and why.

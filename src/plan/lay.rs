@@ -18,8 +18,8 @@ use super::dark_sky::{self, KeptDarkSky};
 use super::data::SkyData;
 use super::globe::KeptGlobe;
 use super::ledger::Ledger;
-use super::skylight::{self, KeptAir, Origin, Shines};
 use super::milky_way::MilkyWayPlan;
+use super::skylight::{self, KeptAir, Origin, Shines};
 use super::{DARK_AZIMUTHS, FramePlan, PlanError, SKY_SHAPE, SkyPlan, Splat};
 
 /// Reach of a splat from its centre, pixels.
@@ -120,13 +120,9 @@ pub fn lay_in(
         let drawn = match state_of(object, night) {
             Some(state) => {
                 let seen = SeenBody::of(state, object, night, &camera);
-                let surface = || match moon.take() {
-                    Some(read) => read().map(Some),
-                    None => Ok(None),
-                };
                 let twinkle = twinkle(setting, night, object);
                 let law = setting.reflectance;
-                lay_body(&seen, surface, law, twinkle, &mut plan, &mut kept.globe)?
+                lay_body(&seen, data, law, twinkle, &mut plan, &mut kept.globe)?
             }
             None => {
                 let light = object.ground * twinkle(setting, night, object);
@@ -245,9 +241,7 @@ fn lay_sky(
     let known = |shines: Shines| classic.map_or(shines, |_| Shines::No(NOT_IN_MODEL));
     let moon = switched(layers.skylight, known(skylight::moon_shines(night)));
     let ground = switched(layers.ground, Shines::Yes);
-    for (layer, shines) in
-        [("sunlit air", sun), ("moonlit air", moon), ("ground", ground)]
-    {
+    for (layer, shines) in [("sunlit air", sun), ("moonlit air", moon), ("ground", ground)] {
         match shines {
             Shines::Yes => ledger.draw(layer),
             Shines::No(reason) => ledger.skip(layer, reason),
@@ -283,8 +277,7 @@ fn lay_dark_sky(
     kept: &mut Kept,
     sky: &mut SkyPlan,
 ) -> Result<Option<MilkyWayPlan>, PlanError> {
-    let lights =
-        dark_sky::lights(&setting.night, layers, night, data, &mut kept.dark_sky, ledger)?;
+    let lights = dark_sky::lights(&setting.night, layers, night, data, &mut kept.dark_sky, ledger)?;
     if lights.are_out() {
         return Ok(None);
     }

@@ -9,7 +9,7 @@ use crate::units::{Angle, Xyzv};
 use super::SKY_SHAPE;
 
 /// The Milky Way over a picture.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct MilkyWayPlan {
     /// Light outside the air.
     pub starlight: Starlight,
@@ -47,7 +47,7 @@ impl MilkyWayPlan {
         let (row, up) = SKY_SHAPE.row_at(dir.altitude(), self.horizon, true);
         let (low, high) = (self.rows.get(row)?, self.rows.get(row + 1)?);
         let between = |of: fn(&OneS10) -> Xyzv| of(low) * (1.0 - up) + of(high) * up;
-        let dust = between(|of| of.dust) * starlight::dust_share(galactic.latitude());
+        let dust = between(|of| of.dust) * starlight::diffuse_share(galactic.latitude());
         let of_one_s10 = [between(|of| of.blue) + dust, between(|of| of.red) + dust];
         Some(MilkyWaySight { dir: galactic, of_one_s10 })
     }

@@ -4,7 +4,7 @@
 //! lets through; between them both are straight, and each pixel reads the map for itself. Tiles are
 //! small where the air dims fast, near the horizon, and where the projection bends.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use half::f16;
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ pub struct MilkyWayPass {
     pipeline: wgpu::RenderPipeline,
     across_map: wgpu::Sampler,
     /// The map that was drawn last, by where its texels are.
-    kept: Mutex<Option<(MilkyWay, wgpu::TextureView)>>,
+    kept: Mutex<Option<(Arc<MilkyWay>, wgpu::TextureView)>>,
 }
 
 impl MilkyWayPass {
@@ -58,11 +58,8 @@ impl MilkyWayPass {
     /// Adds its light to the frame.
     pub fn draw(&self, frame: &mut Target, plan: &MilkyWayPlan, camera: &Camera) {
         let gpu = frame.gpu;
-        let cutter = Cutter {
-            plan,
-            camera,
-            apparent_from_view: camera.view_from_apparent().inverse(),
-        };
+        let cutter =
+            Cutter { plan, camera, apparent_from_view: camera.view_from_apparent().inverse() };
         let (corners, indices) = cutter.tiles().shared_corners(camera);
         if indices.is_empty() {
             return;
@@ -91,11 +88,11 @@ impl MilkyWayPass {
     }
 
     /// The map as a texture, made once.
-    fn map(&self, gpu: &Gpu, map: &MilkyWay) -> wgpu::TextureView {
+    fn map(&self, gpu: &Gpu, map: &Arc<MilkyWay>) -> wgpu::TextureView {
         // A poisoned lock holds a whole map or none.
         let mut kept = self.kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         match &*kept {
-            Some((known, view)) if known.is_same(map) => view.clone(),
+            Some((known, view)) if Arc::ptr_eq(known, map) => view.clone(),
             _ => {
                 let view = texture(gpu, map);
                 *kept = Some((map.clone(), view.clone()));
@@ -146,10 +143,8 @@ struct Cutter<'a> {
 
 impl Cutter<'_> {
     fn tiles(&self) -> SkyTiles {
-        let (columns, rows) = (
-            self.camera.width_px.div_ceil(LARGEST_PX),
-            self.camera.height_px.div_ceil(LARGEST_PX),
-        );
+        let (columns, rows) =
+            (self.camera.width_px.div_ceil(LARGEST_PX), self.camera.height_px.div_ceil(LARGEST_PX));
         let blocks: Vec<Vec<[u32; 4]>> = (0..columns * rows)
             .into_par_iter()
             .map(|block| {

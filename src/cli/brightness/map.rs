@@ -9,10 +9,10 @@ use crate::catalog::Catalogs;
 use crate::export::exr::Attribute;
 use crate::export::{OutputFile, exr, png};
 use crate::image::{HdrFrame, Image};
-use crate::light::dark_sky::luminance_cd_m2;
 use crate::light::moon::Reflectance;
 use crate::light::night::Night;
 use crate::light::night_lights::NightGlow;
+use crate::light::photometry::luminance_cd_m2;
 use crate::plan::lay::{Kept, lay_in};
 use crate::scene::{Layers, Setting};
 use crate::units::Angle;
@@ -146,9 +146,7 @@ fn luminances(
 
 /// The map in colours by magnitudes, and what they mean.
 fn false_colours(frame: &HdrFrame) -> (Image<[u8; 3]>, String) {
-    let mag = |pixel: [f32; 4]| {
-        (pixel[1] > 0.0).then(|| 12.58 - 2.5 * f64::from(pixel[1]).log10())
-    };
+    let mag = |pixel: [f32; 4]| (pixel[1] > 0.0).then(|| 12.58 - 2.5 * f64::from(pixel[1]).log10());
     let mags = || frame.pixels().iter().filter_map(|pixel| mag(*pixel));
     let brightest = mags().fold(f64::INFINITY, f64::min);
     let darkest = mags().fold(f64::NEG_INFINITY, f64::max);
