@@ -8,7 +8,8 @@
 //! Paranal 3 to 6 are left when zodiacal light and stars are taken off.
 //!
 //! *Change.* For each kind PALACE has, by month and local solar time, a factor `f` of the mean at a solar
-//! radio flux of 100 sfu and its relative growth `m` by 100 sfu more: `f (1 + m (S - 100) / 100)`. It was
+//! radio flux of 100 sfu and its growth `m` by 100 sfu more: `f (1 + m (S - 100) / 100)`. (That `m` is
+//! relative is read from the table: added to `f` it would darken the red lines below nothing.) It was
 //! measured from 67 to 166 sfu; the law is drawn out to [`FLUX_RANGE_SFU`]. Months are mixed straight
 //! from middle to middle, hours too; by day the hour nearest to it stands.
 //!

@@ -21,6 +21,7 @@
 //!
 //! *Accuracy.* The Sun has V -26.76, B - V 0.66, V - R 0.38 with Wehrli's spectrum (tested below).
 
+use std::f64::consts::LOG10_2;
 use std::sync::LazyLock;
 
 use crate::light::spectrum::{LEN, Spectrum, interpolate, wavelength_nm};
@@ -110,7 +111,7 @@ pub fn sqm_mag_per_arcsec2(radiance: &Spectrum) -> f64 {
 /// the side.
 pub fn sqm_l_weight(angle_from_axis: Angle) -> f64 {
     /// Degrees and the decimal logarithm of the response.
-    const LAW: [(f64, f64); 4] = [(10.0, -0.301_03), (19.0, -1.0), (40.0, -2.0), (90.0, -4.0)];
+    const LAW: [(f64, f64); 4] = [(10.0, -LOG10_2), (19.0, -1.0), (40.0, -2.0), (90.0, -4.0)];
     let deg = angle_from_axis.deg().abs();
     if deg >= LAW[3].0 {
         0.0
