@@ -313,3 +313,113 @@ impl<E: Fn(f64) -> f64> Scene<E> {
         columns::between(&self.geometry.profile, p2, from_km, to_km.max(from_km))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lambert(cos_zenith: f64) -> f64 {
+        cos_zenith / PI
+    }
+
+    /// The same integral in equal steps along the line.
+    fn in_steps(
+        scene: &Scene<fn(f64) -> f64>,
+        altitude_deg: f64,
+        distance_km: f64,
+        azimuth_deg: f64,
+    ) -> NodeLight {
+        const STEP_KM: f64 = 0.02;
+        let (sin, cos) = altitude_deg.to_radians().sin_cos();
+        let azimuth = azimuth_deg.to_radians();
+        let dir = DVec3::new(cos * azimuth.cos(), cos * azimuth.sin(), sin);
+        let eye = DVec3::new(0.0, 0.0, scene.eye_radius_km);
+        let (along, up) = (distance_km / scene.geometry.ground_radius_km()).sin_cos();
+        let patch_up = DVec3::new(along, 0.0, up);
+        let patch = patch_up * scene.geometry.ground_radius_km();
+        let mut light = [0.0; LANES];
+        for step in 0.. {
+            let s = (f64::from(step) + 0.5) * STEP_KM;
+            if (eye + dir * s).length() > EARTH_RADIUS_KM + TOP_OF_LIGHT_KM {
+                return light;
+            }
+            scene.add_point(&mut light, eye, dir, s, STEP_KM, (patch, patch_up));
+        }
+        light
+    }
+
+    #[test]
+    fn few_points_find_the_light_of_many() {
+        let emission: fn(f64) -> f64 = lambert;
+        let scene = Scene::new(&Atmosphere::default(), 0.0, emission);
+        let mut most: f64 = 0.0;
+        for (altitude, distance, azimuth) in [
+            (90.0, 0.5, 0.0),
+            (90.0, 20.0, 0.0),
+            (45.0, 30.0, 0.0),
+            (45.0, 80.0, 0.0),
+            (10.0, 5.0, 0.0),
+            (10.0, 60.0, 20.0),
+            (10.0, 60.0, 180.0),
+            (2.0, 100.0, 3.0),
+            (0.0, 2.0, 5.0),
+            (0.0, 200.0, 0.0),
+        ] {
+            let got = scene.radiance(f64::to_radians(altitude), distance, f64::to_radians(azimuth));
+            let want = in_steps(&scene, altitude, distance, azimuth);
+            for (got, want) in got.iter().zip(want) {
+                most = most.max((got / want - 1.0).abs());
+                let place = format!("{altitude} {distance} {azimuth}");
+                assert!((got / want - 1.0).abs() < 0.02, "{place}: {got:e} {want:e}");
+            }
+        }
+        println!("quadrature: at most {:.2} %", 100.0 * most);
+    }
+
+    #[test]
+    fn tables_hold_what_lies_between_their_nodes() {
+        let air = Atmosphere::default();
+        let emission: fn(f64) -> f64 = lambert;
+        let scene = Scene::new(&air, 0.0, emission);
+        let tables = GroundLight::solve(&air, 0.0, emission).unwrap();
+        let mut most: f64 = 0.0;
+        for altitude in [1, 4, 8, 12, 16] {
+            for distance in [0.23, 1.7, 9.0, 33.0, 77.0, 190.0] {
+                for [from, to] in [[-10.0, 10.0], [20.0, 60.0], [-30.0, 75.0], [120.0, 230.0]] {
+                    let got = tables.mean(altitude, distance, [from, to].map(f64::to_radians));
+                    let steps = 60;
+                    let mut want = [0.0; LANES];
+                    for step in 0..steps {
+                        let t = (f64::from(step) + 0.5) / f64::from(steps);
+                        let azimuth = f64::to_radians(from + (to - from) * t);
+                        let altitude_rad = ALTITUDES_DEG[altitude].to_radians();
+                        let one = scene.radiance(altitude_rad, distance, azimuth);
+                        want.iter_mut().zip(one).for_each(|(w, o)| *w += o / f64::from(steps));
+                    }
+                    for (got, want) in got.iter().zip(want) {
+                        most = most.max((got / want - 1.0).abs());
+                        let place = format!("{altitude} {distance} {from}");
+                        assert!((got / want - 1.0).abs() < 0.06, "{place}: {got:e} {want:e}");
+                    }
+                }
+            }
+        }
+        println!("interpolation: at most {:.2} %", 100.0 * most);
+        // All around is all around, wherever one begins.
+        let whole = tables.mean(5, 30.0, [0.0, PI]);
+        let again = tables.mean(5, 30.0, [0.3 - PI, 0.3 + PI]);
+        assert!(whole.iter().zip(again).all(|(a, b)| (a / b - 1.0).abs() < 1e-5));
+    }
+
+    #[test]
+    fn beyond_the_horizon_there_is_no_light_low_down() {
+        let emission: fn(f64) -> f64 = lambert;
+        let scene = Scene::new(&Atmosphere::default(), 0.0, emission);
+        // A patch so far away that all of the air over a level line lies below its horizon.
+        let behind = scene.radiance(0.0, 300.0, PI);
+        assert!(behind.iter().all(|light| *light < 1e-20), "{behind:?}");
+        assert!(scene.radiance(0.0, 300.0, 0.0).iter().all(|light| *light > 0.0));
+        let tables = GroundLight::solve(&Atmosphere::default(), 0.0, emission).unwrap();
+        assert_eq!(tables.mean(5, 1e4, [0.0, PI]), [0.0; LANES]);
+    }
+}

@@ -182,3 +182,34 @@ pub(super) fn all_round(
         .collect();
     Dome::new(&rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_hold_all_lamps_around_the_middle_of_the_town() {
+        for (population, distance_km) in
+            [(1e6, 0.0), (1e6, 3.0), (1e6, 8.0), (1e5, 12.0), (1e4, 50.0)]
+        {
+            let bearing = Angle::from_deg(40.0);
+            let town = Town { name: String::new(), population, bearing, distance_km };
+            for is_faint in [false, true] {
+                let rings = rings(&town, is_faint);
+                let sum = |of: fn(&Ring) -> f64| {
+                    rings.iter().map(|ring| ring.lumens * of(ring)).sum::<f64>()
+                };
+                let lumens = sum(|_| 1.0);
+                assert!((lumens / population / LUMENS_A_HEAD - 1.0).abs() < 1e-9);
+                // The middle of an arc lies at a part sin(w) / w of its distance.
+                let middle_km = sum(|ring| {
+                    let w = ring.half_width.max(1e-9);
+                    ring.distance_km * w.sin() / w
+                }) / lumens;
+                let r = radius_km(population);
+                assert!((middle_km - distance_km).abs() < 0.03 * r + 0.02 * distance_km);
+            }
+        }
+        assert!((radius_km(1e6) - 8.6).abs() < 0.1 && (radius_km(1e4) - 1.5).abs() < 0.05);
+    }
+}
