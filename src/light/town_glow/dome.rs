@@ -18,6 +18,8 @@ const LEAST_OF_ZENITH: f64 = 1e-4;
 #[derive(Debug)]
 pub(super) struct Dome {
     nodes: Vec<NodeLight>,
+    /// One if all azimuths are alike.
+    columns: usize,
 }
 
 /// Azimuth of a column.
@@ -26,8 +28,9 @@ pub(super) fn azimuth_of(column: usize) -> f64 {
 }
 
 impl Dome {
-    /// From the light at the altitudes of the tables, a row of columns for each, or one for all.
+    /// From the light at the altitudes of the tables, a row of columns for each, or one column.
     pub fn new(rows: &[Vec<NodeLight>]) -> Dome {
+        let columns = rows[0].len();
         let zenith = &rows[rows.len() - 1];
         let log = |column: usize, nodes: &NodeLight| -> NodeLight {
             let least = zenith[column].map(|v| (LEAST_OF_ZENITH * v).max(DARK));
@@ -37,15 +40,11 @@ impl Dome {
             .iter()
             .map(|row| row.iter().enumerate().map(|(column, nodes)| log(column, nodes)).collect())
             .collect();
-        let nodes = (0..ROWS * COLUMNS)
+        let nodes = (0..ROWS * columns)
             .into_par_iter()
-            .map(|i| {
-                let (altitude_deg, column) = ((i / COLUMNS) as f64, i % COLUMNS);
-                let at = |row: usize| &logs[row][column % logs[row].len()];
-                cubic(altitude_deg, at)
-            })
+            .map(|i| cubic((i / columns) as f64, |row| &logs[row][i % columns]))
             .collect();
-        Dome { nodes }
+        Dome { nodes, columns }
     }
 
     pub fn nodes(&self) -> &[NodeLight] {
@@ -58,11 +57,11 @@ impl Dome {
         // Written so that a direction that is no number is the north.
         let row = altitude.deg().max(0.0).min((ROWS - 1) as f64);
         let turn = azimuth.rad() / (2.0 * PI);
-        let column = ((turn - turn.floor()) * COLUMNS as f64).max(0.0);
+        let column = ((turn - turn.floor()) * self.columns as f64).max(0.0);
         let low = (row as usize).min(ROWS - 2);
         let (left, up, east) = (column as usize, row - low as f64, column.fract());
-        let (left, right) = (left % COLUMNS, (left + 1) % COLUMNS);
-        let (here, above) = (low * COLUMNS, (low + 1) * COLUMNS);
+        let (left, right) = (left % self.columns, (left + 1) % self.columns);
+        let (here, above) = (low * self.columns, (low + 1) * self.columns);
         [
             (here + left, (1.0 - up) * (1.0 - east)),
             (here + right, (1.0 - up) * east),
@@ -87,7 +86,7 @@ impl Dome {
             };
             let below = if row > 0 { hat(-1.0) } else { 0.0 };
             let above = if row + 1 < ROWS { hat(1.0) } else { 0.0 };
-            std::iter::repeat_n((below + above) * 2.0 * PI / COLUMNS as f64, COLUMNS)
+            std::iter::repeat_n((below + above) * 2.0 * PI / self.columns as f64, self.columns)
         })
     }
 }
@@ -136,7 +135,13 @@ mod tests {
 
     #[test]
     fn an_even_sky_lights_the_ground_with_pi_of_its_radiance() {
-        let even = vec![vec![[2.0; SKY_NODES_NM.len()]]; ALTITUDES_DEG.len()];
+        for columns in [1, COLUMNS] {
+            an_even_sky(columns);
+        }
+    }
+
+    fn an_even_sky(columns: usize) {
+        let even = vec![vec![[2.0; SKY_NODES_NM.len()]; columns]; ALTITUDES_DEG.len()];
         let dome = Dome::new(&even);
         let sum: f64 = dome.projected_solid_angles().sum();
         assert!((sum / PI - 1.0).abs() < 1e-3, "{sum}");
