@@ -47,15 +47,15 @@ fn diode(blue: f64, centre_nm: f64, widths_nm: [f64; 2]) -> Spectrum {
 
 /// Sodium at high pressure: wavelength, power relative to the rest, full width at half height, nm.
 const HIGH_PRESSURE: [(f64, f64, f64); 12] = [
-    (440.0, 3.0, 90.0),
-    (449.8, 0.9, 6.0),
-    (466.7, 1.6, 6.0),
+    (440.0, 3.3, 90.0),
+    (449.8, 1.0, 6.0),
+    (466.7, 1.7, 6.0),
     (475.1, 0.7, 6.0),
-    (498.1, 4.5, 6.0),
-    (515.2, 1.3, 6.0),
-    (568.6, 13.0, 9.0),
-    (581.0, 22.0, 12.0),
-    (600.0, 42.0, 22.0),
+    (498.1, 5.0, 6.0),
+    (515.2, 1.5, 6.0),
+    (568.6, 14.0, 9.0),
+    (581.5, 22.0, 12.0),
+    (599.0, 40.0, 22.0),
     (615.8, 7.0, 8.0),
     (630.0, 17.0, 90.0),
     (768.0, 8.0, 14.0),
@@ -80,8 +80,8 @@ impl Lamps {
                     [Lamps::Sodium, Lamps::Led3000, Lamps::Led4000].map(Lamps::spectrum);
                 sodium * 0.5 + warm * 0.2 + neutral * 0.3
             }
-            Lamps::Led3000 => diode(0.42, 598.0, [105.0, 135.0]),
-            Lamps::Led4000 => diode(0.75, 575.0, [105.0, 150.0]),
+            Lamps::Led3000 => diode(0.63, 591.0, [127.0, 158.0]),
+            Lamps::Led4000 => diode(1.08, 578.0, [125.0, 140.0]),
             Lamps::Sodium => high_pressure_sodium(),
             Lamps::LowPressureSodium => Spectrum::line(589.0, 2.0) + Spectrum::line(589.6, 1.0),
         };
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
     use crate::light::spectrum::chromaticity_xy;
 
-    /// Colour temperature after McCamy 1992 (recalled); good to some kelvin near the black body.
+    /// Colour temperature after McCamy 1992 (recalled): within 10 K for white light, see the test.
     fn temperature_k([x, y]: [f64; 2]) -> f64 {
         let n = (x - 0.3320) / (0.1858 - y);
         ((449.0 * n + 3525.0) * n + 6823.3) * n + 5520.33

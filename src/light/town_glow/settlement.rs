@@ -12,7 +12,8 @@ use super::*;
 const SQUARE_MILE_KM2: f64 = 2.589_988;
 /// Towns with less than this part of all the glow are taken for a ring of one distance.
 const FAINT: f64 = 0.005;
-/// Nodes and weights of Gauss and Legendre's rule of order 4 on [-1, 1].
+/// Nodes and weights of Gauss and Legendre's rule on [-1, 1], of orders 2 and 4.
+const GAUSS_2: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 1.0), (0.577_350_269_189_625_8, 1.0)];
 const GAUSS_4: [(f64, f64); 4] = [
     (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     (-0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
@@ -68,6 +69,7 @@ fn rings(town: &Town, is_faint: bool) -> Vec<Ring> {
         let half_width = 0.5 * PI.sqrt() * r / d;
         return vec![Ring { lumens, distance_km: d, azimuth, half_width }];
     }
+    let rule: &[(f64, f64)] = if d < 4.0 * r { &GAUSS_4 } else { &GAUSS_2 };
     let mut pieces = vec![((d - r).abs(), d + r)];
     if d < r {
         pieces.push((0.0, r - d));
@@ -77,7 +79,7 @@ fn rings(town: &Town, is_faint: bool) -> Vec<Ring> {
     let mut rings: Vec<Ring> = pieces
         .iter()
         .flat_map(|&(from, to)| {
-            GAUSS_4.map(|(node, weight)| {
+            rule.iter().map(move |&(node, weight)| {
                 let s = 0.5 * (from + to) + 0.5 * (to - from) * node;
                 let half_width = half_angle(s);
                 let area = weight * 0.5 * (to - from) * 2.0 * half_width * s;
@@ -181,4 +183,35 @@ pub(super) fn all_round(
         .map(|altitude| vec![sum(altitude).map(|value| value * scale)])
         .collect();
     Dome::new(&rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_hold_all_lamps_around_the_middle_of_the_town() {
+        for (population, distance_km) in
+            [(1e6, 0.0), (1e6, 3.0), (1e6, 8.0), (1e5, 12.0), (1e4, 50.0)]
+        {
+            let bearing = Angle::from_deg(40.0);
+            let town = Town { name: String::new(), population, bearing, distance_km };
+            for is_faint in [false, true] {
+                let rings = rings(&town, is_faint);
+                let sum = |of: fn(&Ring) -> f64| {
+                    rings.iter().map(|ring| ring.lumens * of(ring)).sum::<f64>()
+                };
+                let lumens = sum(|_| 1.0);
+                assert!((lumens / population / LUMENS_A_HEAD - 1.0).abs() < 1e-9);
+                // The middle of an arc lies at a part sin(w) / w of its distance.
+                let middle_km = sum(|ring| {
+                    let w = ring.half_width.max(1e-9);
+                    ring.distance_km * w.sin() / w
+                }) / lumens;
+                let r = radius_km(population);
+                assert!((middle_km - distance_km).abs() < 0.03 * r + 0.02 * distance_km);
+            }
+        }
+        assert!((radius_km(1e6) - 8.6).abs() < 0.1 && (radius_km(1e4) - 1.5).abs() < 0.05);
+    }
 }
