@@ -17,9 +17,10 @@
 //! take it, without the bands themselves.
 //!
 //! Accuracy: the synthetic B-V is that of the catalogue within 0.001 mag (tested over the whole
-//! catalogue; three carbon stars redder than E(B-V) = 3 can make a black body are brought to that). Illuminance follows
-//! V with no term of colour, as everywhere in this program. Integrated over both bands, O and B stars would
-//! give the eye 4 % less than V says and K5 dwarfs 6 % more (zero at the Sun; M giants -2 to 5 %).
+//! catalogue; three carbon stars redder than E(B-V) = 3 can make a black body are brought to that).
+//! Illuminance follows V with no term of colour, as everywhere in this program. Integrated over both bands,
+//! O and B stars would give the eye 4 % less than V says and K5 dwarfs 6 % more (zero at the Sun; M giants
+//! -2 to 5 %).
 
 use std::sync::LazyLock;
 
