@@ -340,7 +340,7 @@ fn stars_twinkle_only_when_asked_and_alike_for_one_seed() {
     assert_ne!(one, other);
     let factors: Vec<f64> = one.iter().zip(&steady).map(|(a, b)| a / b).collect();
     let mean = factors.iter().sum::<f64>() / factors.len() as f64;
-    // 500 stars and more, each a third off at most in the rms: the mean is good to 0.015.
-    assert!(factors.len() > 400 && (mean - 1.0).abs() < 0.05, "{} {mean}", factors.len());
+    // Some hundred stars, each 0.1 to 0.5 off in the rms: the mean is good to 0.02.
+    assert!(factors.len() > 200 && (mean - 1.0).abs() < 0.05, "{} {mean}", factors.len());
     assert!(factors.iter().any(|factor| (factor - 1.0).abs() > 0.1));
 }

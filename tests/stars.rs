@@ -183,7 +183,7 @@ fn light_of_stars_is_kept_for_the_same_air_and_place_alone() {
 fn arcturus_moves_through_space_for_millennia() {
     let stars = Catalogs::locate(None).unwrap().stars().unwrap();
     let arcturus = stars.iter().find(|star| star.name.as_deref() == Some("Arcturus")).unwrap();
-    // In parsecs, with 4.740 57 km/s for one arcsecond a year at one parsec.
+    // In parsecs, with 4.740 47 km/s for one arcsecond a year at one parsec.
     let (ra, dec) = (arcturus.dir_j2000.longitude(), arcturus.dir_j2000.latitude());
     let (sin_ra, cos_ra) = ra.rad().sin_cos();
     let (sin_dec, cos_dec) = dec.rad().sin_cos();
@@ -191,7 +191,7 @@ fn arcturus_moves_through_space_for_millennia() {
     let east = DVec3::new(-sin_ra, cos_ra, 0.0);
     let north = DVec3::new(-sin_dec * cos_ra, -sin_dec * sin_ra, cos_dec);
     let parsecs = 1.0 / arcturus.parallax_arcsec;
-    let across_km_s = |arcsec_yr: f64| 4.740_57 * arcsec_yr * parsecs;
+    let across_km_s = |arcsec_yr: f64| 4.740_47 * arcsec_yr * parsecs;
     let velocity_km_s = out * arcturus.radial_velocity_km_s
         + east * across_km_s(arcturus.proper_motion_ra_arcsec_yr)
         + north * across_km_s(arcturus.proper_motion_dec_arcsec_yr);

@@ -1,5 +1,7 @@
 //! Lays a night on the plane of the picture.
 
+use rayon::prelude::*;
+
 use crate::camera::Camera;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
@@ -172,15 +174,31 @@ fn lay_stars(
     ] {
         ledger.skip_many("stars", reason, many);
     }
-    for star in &found.stars {
-        if let Err(reason) = visible(star, layers, true, night, plan) {
-            ledger.skip("stars", reason);
-            continue;
-        }
-        let light = star.ground * twinkle(setting, night, star);
-        match lay_point(&camera, star.apparent, light, &mut plan.splats) {
-            true => ledger.draw("stars"),
-            false => ledger.skip("stars", OUT_OF_VIEW),
+    let view_from_apparent = camera.view_from_apparent();
+    let so_far = &*plan;
+    let seen: Vec<Result<([f64; 2], Xyzv), &'static str>> = found
+        .stars
+        .par_iter()
+        .with_min_len(256)
+        .map(|star| {
+            if star.apparent.altitude() < night.horizon {
+                return Err(BELOW_HORIZON);
+            }
+            let pixel = camera.pixel_from_view(view_from_apparent * star.apparent);
+            let first = repeats_of(&camera, pixel).next();
+            let (Some(pixel), Some(first)) = (pixel, first) else { return Err(OUT_OF_VIEW) };
+            stands_out(star, first, night, so_far)?;
+            Ok((pixel, star.ground * twinkle(setting, night, star)))
+        })
+        .collect();
+    for star in seen {
+        match star {
+            Ok((pixel, illuminance)) => {
+                let repeats = repeats_of(&camera, Some(pixel));
+                plan.splats.extend(repeats.map(|centre_px| Splat { centre_px, illuminance }));
+                ledger.draw("stars");
+            }
+            Err(reason) => ledger.skip("stars", reason),
         }
     }
 }
@@ -344,13 +362,7 @@ fn visible(
         Kind::Satellite(_) | Kind::Star(_) => repeats_px(camera, object.apparent).next(),
     };
     let Some(pixel) = pixel else { return Err(OUT_OF_VIEW) };
-    let peak = object.ground.y * SPLAT_PEAK / camera.pixel_solid_angle_sr(pixel);
-    if peak < DROWNED * plan.sky.luminance(object.apparent).y {
-        return Err(OUTSHONE);
-    }
-    if night.sky.sun.covers(object.dir) || night.sky.moon.state.covers(object.dir) {
-        return Err(HIDDEN);
-    }
+    stands_out(object, pixel, night, plan)?;
     match object.kind {
         Kind::Satellite(moon) => match night.sky.satellite(moon) {
             Some(state) if state.share_seen <= 0.0 => Err(BEHIND_JUPITER),
@@ -359,6 +371,23 @@ fn visible(
         },
         _ => Ok(()),
     }
+}
+
+/// Whether a point of light at a pixel can be told from the sky, and nothing stands before it.
+fn stands_out(
+    object: &LitObject,
+    pixel: [f64; 2],
+    night: &Night,
+    plan: &FramePlan,
+) -> Result<(), &'static str> {
+    let peak = object.ground.y * SPLAT_PEAK / plan.camera.pixel_solid_angle_sr(pixel);
+    if peak < DROWNED * plan.sky.luminance(object.apparent).y {
+        return Err(OUTSHONE);
+    }
+    if night.sky.sun.covers(object.dir) || night.sky.moon.state.covers(object.dir) {
+        return Err(HIDDEN);
+    }
+    Ok(())
 }
 
 /// What became of a body on the picture.
@@ -421,11 +450,16 @@ fn lay_point(
 
 /// Where a point of light touches the picture: once, or again a full turn of a panorama away.
 fn repeats_px(camera: &Camera, apparent: Dir<Apparent>) -> impl Iterator<Item = [f64; 2]> {
+    repeats_of(camera, camera.pixel_from_apparent(apparent))
+}
+
+/// The same of the pixel that the plane of the picture has for it.
+fn repeats_of(camera: &Camera, pixel: Option<[f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
     let inside =
         |v: f64, edge: u32| (-SPLAT_REACH_PX..f64::from(edge) + SPLAT_REACH_PX).contains(&v);
     let (width_px, height_px) = (camera.width_px, camera.height_px);
     let turn_px = camera.wrap_px();
-    camera.pixel_from_apparent(apparent).into_iter().flat_map(move |[x, y]| {
+    pixel.into_iter().flat_map(move |[x, y]| {
         let turns = [Some(0.0), turn_px.map(|turn| -turn), turn_px];
         turns
             .into_iter()

@@ -216,7 +216,7 @@ mod tests {
                 assert!(index[number].magnitude.0 >= before);
                 before = index[number].magnitude.0;
             }
-            assert!(cell.radius.deg() < 9.0, "{}", cell.radius.deg());
+            assert!(cell.radius.deg() < 11.0, "{}", cell.radius.deg());
         }
         assert!(seen.iter().all(|&count| count == 1));
         assert!((350..=6 * ACROSS * ACROSS).contains(&index.cells().len()));
