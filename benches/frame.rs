@@ -161,10 +161,10 @@ fn stars(renderer: &Renderer, catalogs: &Catalogs) -> Result<(), Box<dyn Error>>
         let without = Layers { stars: false, ..layers.clone() };
         let no_moon = || Err(nocturne::catalog::CatalogError::NoSource { file: "moon" });
         let first = Clock::now();
-        let (plan, ledger) = lay_in(&setting, &layers, &night, no_moon, &mut kept)?;
+        let (plan, ledger) = lay_in(&setting, &layers, &night, &no_moon, &mut kept)?;
         let first_ms = first.elapsed().as_secs_f64() * 1e3;
         let mut lay = |layers: &Layers| {
-            median_ms(FRAMES, || lay_in(&setting, layers, &night, no_moon, &mut kept))
+            median_ms(FRAMES, || lay_in(&setting, layers, &night, &no_moon, &mut kept))
         };
         let lay_ms = lay(&layers) - lay(&without);
         let splats = plan.splats.clone();
@@ -216,7 +216,7 @@ fn moon(
     setting.camera.field_of_view = Angle::from_deg(field_deg);
     let layers = Layers { skylight: false, ground: false, ..Layers::default() };
     let mut kept = Kept::new(Store::NONE);
-    let mut lay = || lay_in(&setting, &layers, &night, || Ok(maps.clone()), &mut kept);
+    let mut lay = || lay_in(&setting, &layers, &night, &|| Ok(maps.clone()), &mut kept);
     let (plan, _) = lay()?;
     let globe = plan.discs.first().and_then(|disc| disc.globe.as_ref());
     let triangles: u32 =
@@ -289,7 +289,7 @@ fn plan(
     let night = light();
     let mut kept = Kept::new(Store::NONE);
     // The air is solved once; what follows is what a second frame takes.
-    let mut lay = || lay_in(&setting, &layers, &night, || Ok(moon_maps.clone()), &mut kept);
+    let mut lay = || lay_in(&setting, &layers, &night, &|| Ok(moon_maps.clone()), &mut kept);
     let (plan, _) = lay()?;
     println!(
         "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",
@@ -327,7 +327,7 @@ fn setting(utc: &str, width_px: u32, height_px: u32) -> Result<Setting, Box<dyn 
 /// A plan without any light.
 fn empty(camera: Camera) -> FramePlan {
     let sky = SkyPlan::black(Angle::ZERO);
-    FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
+    FramePlan { camera, sky, milky_way: None, discs: Vec::new(), splats: Vec::new() }
 }
 
 /// Medians of the passes of a plan, and of the whole with its way back to memory.

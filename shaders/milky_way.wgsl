@@ -18,7 +18,7 @@ struct Corner {
     @location(4) over: f32,
 }
 
-struct Sight {
+struct Seen {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(linear) dir: vec3f,
     @location(1) @interpolate(linear) blue: vec4f,
@@ -27,9 +27,9 @@ struct Sight {
 }
 
 @vertex
-fn vertex(corner: Corner) -> Sight {
+fn vertex(corner: Corner) -> Seen {
     let position = clip_from_pixel(camera, corner.pixel);
-    return Sight(position, corner.dir, corner.blue, corner.red, corner.over);
+    return Seen(position, corner.dir, corner.blue, corner.red, corner.over);
 }
 
 // Given a direction of any length, its place on the map, -1 to 1: the octahedron, its lower half
@@ -41,10 +41,10 @@ fn octahedral(dir: vec3f) -> vec2f {
 }
 
 @fragment
-fn fragment(sight: Sight) -> @location(0) LuminanceXyzv {
+fn fragment(seen: Seen) -> @location(0) LuminanceXyzv {
     let size = vec2f(textureDimensions(map));
-    let place = 0.5 + 0.5 * octahedral(sight.dir) * (size - 2.0) / size;
+    let place = 0.5 + 0.5 * octahedral(seen.dir) * (size - 2.0) / size;
     let s10 = textureSampleLevel(map, across_map, place, 0.0).xy;
-    let light = s10.x * sight.blue + s10.y * sight.red;
-    return light * clamp(0.5 + sight.over, 0.0, 1.0);
+    let light = s10.x * seen.blue + s10.y * seen.red;
+    return light * clamp(0.5 + seen.over, 0.0, 1.0);
 }

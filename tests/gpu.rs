@@ -54,7 +54,7 @@ fn camera(projection: Projection, fov_deg: f64, width_px: u32, height_px: u32) -
 
 fn dark_plan(camera: Camera) -> FramePlan {
     let sky = SkyPlan::black(Angle::ZERO);
-    FramePlan { camera, sky, discs: Vec::new(), splats: Vec::new() }
+    FramePlan { camera, sky, milky_way: None, discs: Vec::new(), splats: Vec::new() }
 }
 
 fn drawn(renderer: &Renderer, plan: &FramePlan) -> Result<HdrFrame, Failed> {

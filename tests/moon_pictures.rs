@@ -87,12 +87,7 @@ impl DrawnMoon {
         camera.field_of_view_deg = 2.0 * edge * moon.angular_radius.deg();
         (camera.width_px, camera.height_px) = (width_px, width_px);
         let setting = scene.setting()?;
-        let given = MoonMaps {
-            albedo: Arc::clone(&maps.albedo),
-            relief: Arc::clone(&maps.relief),
-            hapke: Arc::clone(&maps.hapke),
-        };
-        let (plan, _) = lay(&setting, &scene.layers, &night, || Ok(given))?;
+        let (plan, _) = lay(&setting, &scene.layers, &night, &|| Ok(maps.clone()))?;
         check(plan.discs.len() == 1, || format!("{utc}: the Moon is not drawn"))?;
         let frame = renderer.frame(&plan)?.frame;
         Ok(DrawnMoon { frame, setting, night, maps })

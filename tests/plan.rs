@@ -1,15 +1,20 @@
 //! What a plan holds and what it leaves out, and that the ledger says why. Needs no GPU.
 
+use std::cell::Cell;
+
 use nocturne::air::Atmosphere;
-use nocturne::catalog::Catalogs;
+use nocturne::catalog::{CatalogError, Catalogs, MoonMaps};
 use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::{Apparent, Dir};
+use nocturne::light::dark_sky::DarkSky;
 use nocturne::light::night::Night;
+use nocturne::light::night_lights::NightGlow;
 use nocturne::light::scintillation::Scintillation;
+use nocturne::plan::dark_sky::{self, KeptDarkSky};
 use nocturne::plan::lay::{Kept, lay, lay_in};
 use nocturne::plan::ledger::Ledger;
 use nocturne::plan::skylight::{KeptAir, Origin, SolvedAir};
-use nocturne::plan::{FramePlan, SKY_SHAPE, skylight};
+use nocturne::plan::{DARK_AZIMUTHS, FramePlan, SKY_SHAPE, SkyPlan, skylight};
 use nocturne::scene::{Layers, Scene};
 use nocturne::sky::{BodyState, SkyState};
 use nocturne::store::Store;
@@ -51,13 +56,13 @@ fn laid(scene: &Scene) -> (FramePlan, Ledger, bool) {
     let catalogs = Catalogs::locate(None).unwrap();
     let setting = scene.setting().unwrap();
     let night = night_of(scene);
-    let mut asked = false;
-    let moon_map = || {
-        asked = true;
+    let asked = Cell::new(false);
+    let moon_maps = || {
+        asked.set(true);
         catalogs.moon_maps()
     };
-    let (plan, ledger) = lay(&setting, &scene.layers, &night, moon_map).unwrap();
-    (plan, ledger, asked)
+    let (plan, ledger) = lay(&setting, &scene.layers, &night, &moon_maps).unwrap();
+    (plan, ledger, asked.get())
 }
 
 fn skipped(ledger: &Ledger, layer: &str, reason: &str) -> usize {
@@ -188,18 +193,20 @@ fn what_is_skipped_could_not_have_been_seen() {
     let dusk = first(&mut at("2026-01-18T00:00:00Z"), |night| {
         altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let (sky, _) = skylight::sky_plan(&dusk, true, false, &mut unkept()).unwrap();
+    let (mut sky, _) = skylight::sky_plan(&dusk, true, false, &mut unkept()).unwrap();
+    lay_dark_sky(&dusk, &mut sky);
     let sun = sky.sun.as_ref().unwrap().luminance();
-    let share = largest_share(&sun, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
+    let share = largest_share(&sun, |texel| darkest(&sky, texel / SKY_SHAPE.azimuths));
     assert!(share < 0.02, "sunlit air at its floor: {share} of the dark sky");
     // A bright Moon at the floor of its table, against the dark sky.
     let moonset = first(&mut at("2026-08-24T04:00:00Z"), |night| {
         altitude(&night.sky.moon.state) < skylight::MOON_SKY_FLOOR
             && altitude(&night.sky.sun) < skylight::SUN_SKY_FLOOR
     });
-    let (sky, _) = skylight::sky_plan(&moonset, false, true, &mut unkept()).unwrap();
+    let (mut sky, _) = skylight::sky_plan(&moonset, false, true, &mut unkept()).unwrap();
+    lay_dark_sky(&moonset, &mut sky);
     let moon = sky.moon.as_ref().unwrap().luminance();
-    let share = largest_share(&moon, |texel| sky.dark[texel / SKY_SHAPE.azimuths].y);
+    let share = largest_share(&moon, |texel| darkest(&sky, texel / SKY_SHAPE.azimuths));
     assert!(share < 0.02, "moonlit air at its floor: {share} of the dark sky");
     // The full Moon of dusk against the twilight behind it.
     let rising = first(&mut at("2026-08-28T01:30:00Z"), |night| {
@@ -218,6 +225,23 @@ fn what_is_skipped_could_not_have_been_seen() {
     assert!(share < 0.002, "moonlit air in twilight: {share} of the twilight");
 }
 
+/// The darkest of a row of the dark sky.
+fn darkest(sky: &SkyPlan, row: usize) -> f64 {
+    let row = &sky.dark[row * DARK_AZIMUTHS..][..DARK_AZIMUTHS];
+    row.iter().map(|light| light.y).fold(f64::INFINITY, f64::min)
+}
+
+fn lay_dark_sky(night: &Night, sky: &mut SkyPlan) {
+    let (glow, layers) = (NightGlow::default(), Layers::default());
+    let catalogs = Catalogs::locate(None).unwrap();
+    let mut kept = KeptDarkSky::default();
+    let mut ledger = Ledger::default();
+    let lights =
+        dark_sky::lights(&glow, &layers, night, &catalogs, &mut kept, &mut ledger).unwrap();
+    let air = kept.air(night).unwrap();
+    dark_sky::lay(&DarkSky::new(&air, lights), sky);
+}
+
 fn unkept() -> KeptAir {
     KeptAir::new(Store::NONE)
 }
@@ -230,9 +254,10 @@ fn air_is_solved_once_and_the_ledger_says_so() {
     let night = night_of(&scene);
     let setting = scene.setting().unwrap();
     let origin = |kept: &mut Kept| {
-        let map = || unreachable!("the Moon is a point or hidden");
+        let map: &dyn Fn() -> Result<MoonMaps, CatalogError> =
+            &|| unreachable!("the Moon is a point or hidden");
         let layers = Layers { moon: false, ..scene.layers };
-        let (_, ledger) = lay_in(&setting, &layers, &night, map, kept).unwrap();
+        let (_, ledger) = lay_in(&setting, &layers, &night, &map, kept).unwrap();
         ledger.of("sunlit air").unwrap().how.clone()
     };
     let mut kept = Kept::new(store.clone());

@@ -15,6 +15,7 @@ use nocturne::frame::{Apparent, Dir, Horizon, Local, View};
 use nocturne::image::Image;
 use nocturne::light::moon::Reflectance;
 use nocturne::light::night::Night;
+use nocturne::light::night_lights::NightGlow;
 use nocturne::place::{HEIGHT_RANGE_M, Place};
 use nocturne::plan::FramePlan;
 use nocturne::plan::lay::lay;
@@ -368,10 +369,11 @@ fn planned((instant, place, camera, mut air, layers, stars): SmallScene) -> Fram
         camera,
         tolerance,
         sky: None,
+        night: NightGlow::default(),
         reflectance: Reflectance::Hapke,
         scintillation: None,
     };
-    lay(&setting, &layers, &night, || Ok(maps)).unwrap().0
+    lay(&setting, &layers, &night, &|| Ok(maps.clone())).unwrap().0
 }
 
 fn is_light(light: Xyzv) -> bool {
