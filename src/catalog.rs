@@ -20,6 +20,7 @@ mod colour;
 mod csv;
 mod hipparcos;
 pub mod layered;
+pub mod milky_way;
 pub mod moon;
 mod moon_features;
 pub mod pack;
@@ -30,6 +31,7 @@ pub mod stars;
 
 pub use colour::{Luminosity, spectral_class};
 pub use hipparcos::Astrometry;
+pub use milky_way::MilkyWay;
 pub use moon::{HapkeCell, MoonHapke, MoonMap, MoonRelief};
 pub use moon_features::MoonFeature;
 pub use seal::sha256_hex;
@@ -40,6 +42,7 @@ const PLACES_FILE: &str = "places.csv";
 const MOON_FILE: &str = "moon_albedo.bin";
 const RELIEF_FILE: &str = "moon_relief.bin";
 const HAPKE_FILE: &str = "moon_hapke.bin";
+const MILKY_WAY_FILE: &str = "milky_way.bin";
 const MOON_FEATURES_FILE: &str = "moon_features.csv";
 const ENVIRONMENT_VARIABLE: &str = "NOCTURNE_CATALOGS";
 
@@ -96,7 +99,7 @@ pub enum CatalogError {
     RawUnreadable { path: PathBuf, source: io::Error },
     #[error("{path}, line {line}: {what}; fetch the raw table again, or mend the packing")]
     Raw { path: PathBuf, line: usize, what: String },
-    #[error("the map of the Moon {what}; give the one named in SOURCES.toml")]
+    #[error("the picture {what}; give the one named in SOURCES.toml")]
     Picture { what: String },
     #[error("SOURCES.toml has no path and sha256 for {file}; add a [[file]] table for it")]
     NoSource { file: &'static str },
@@ -182,6 +185,11 @@ impl Catalogs {
     /// How the ground of the Moon sends light back.
     pub fn moon_hapke(&self) -> Result<MoonHapke, CatalogError> {
         self.read(HAPKE_FILE, |bytes| moon::hapke::decode(&bytes))
+    }
+
+    /// The light of the stars that are not in the Bright Star Catalogue.
+    pub fn milky_way(&self) -> Result<MilkyWay, CatalogError> {
+        self.read(MILKY_WAY_FILE, |bytes| milky_way::decode(&bytes))
     }
 
     /// The best-known places on the Moon.

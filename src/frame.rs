@@ -17,6 +17,7 @@
 //! EclipticOfDate  x to the mean equinox of date, z to the pole of the ecliptic of date
 //! MeanOfDate  x to the mean equinox of date, z to the mean pole of date
 //! TrueOfDate  x to the true equinox of date, z to the true pole (precession and nutation)
+//! Galactic    x to the galactic centre, y to l = 90 degrees (Cygnus), z to the north galactic pole
 //! Itrs        x to the prime meridian, z to the geographic pole; turns with the Earth
 //! Horizon     x east, y north, z up. Geometric: what stands there without air
 //! Apparent    x east, y north, z up. Refracted: where the light is seen to come from
@@ -44,6 +45,9 @@ use crate::units::Angle;
 /// The axes of the International Celestial Reference System: what catalogues are written in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Icrs {}
+/// Galactic longitude and latitude of the IAU 1958: x to the centre, z to the north pole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Galactic {}
 /// Mean ecliptic and mean equinox of date.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EclipticOfDate {}
@@ -272,6 +276,18 @@ impl<To, From> Mul<Pos<From>> for Rot<To, From> {
     }
 }
 
+/// Galactic from ICRS axes, by the definition of the Hipparcos catalogue, vol. 1, 1.5.3: north pole at
+/// right ascension 192.85948 and declination 27.12825 degrees, ascending node of the galactic plane
+/// at galactic longitude 32.93192 degrees. Agrees with the matrix printed there (eq. 1.5.11) to 1e-10.
+pub fn galactic_from_icrs() -> Rot<Galactic, Icrs> {
+    let [pole_ra, pole_dec, node] = [192.859_48, 27.128_25, 32.931_92].map(Angle::from_deg);
+    let quarter = Angle::from_deg(90.0);
+    // To the node of the plane on the equator, up to the plane, along it to the centre.
+    let matrix =
+        turn_axes_z(-node) * turn_axes_x(quarter - pole_dec) * turn_axes_z(pole_ra + quarter);
+    Rot::claim(matrix)
+}
+
 /// Takes coordinates to axes turned by `angle` about x (the astronomer's `R1`).
 pub fn turn_axes_x(angle: Angle) -> DMat3 {
     DMat3::from_rotation_x(-angle.rad())
@@ -306,6 +322,28 @@ mod tests {
         assert!((turn_axes_z(quarter) * DVec3::Y).abs_diff_eq(DVec3::X, 1e-15));
         assert!((turn_axes_x(quarter) * DVec3::Z).abs_diff_eq(DVec3::Y, 1e-15));
         assert!((turn_axes_y(quarter) * DVec3::X).abs_diff_eq(DVec3::Z, 1e-15));
+    }
+
+    #[test]
+    fn the_galaxy_lies_as_hipparcos_says() {
+        // Rows of the transpose of its eq. 1.5.11.
+        let printed = DMat3::from_cols_array_2d(&[
+            [-0.0548755604, 0.4941094279, -0.8676661490],
+            [-0.8734370902, -0.4448296300, -0.1980763734],
+            [-0.4838350155, 0.7469822445, 0.4559837762],
+        ]);
+        assert!(galactic_from_icrs().matrix().abs_diff_eq(printed, 1e-9));
+        // Sagittarius A*, and Deneb to the left of it along the plane.
+        let centre: Dir<Icrs> =
+            Dir::from_spherical(Angle::from_deg(266.41684), Angle::from_deg(-29.00781));
+        let centre = galactic_from_icrs() * centre;
+        assert!((centre.longitude().signed().deg() + 0.0558).abs() < 1e-3);
+        assert!((centre.latitude().deg() + 0.0462).abs() < 1e-3);
+        let deneb: Dir<Icrs> =
+            Dir::from_spherical(Angle::from_deg(310.35798), Angle::from_deg(45.28034));
+        let deneb = galactic_from_icrs() * deneb;
+        assert!((deneb.longitude().deg() - 84.285).abs() < 0.01);
+        assert!((deneb.latitude().deg() - 1.998).abs() < 0.01);
     }
 
     #[test]

@@ -7,12 +7,13 @@ use std::path::Path;
 
 use super::bsc5::{self, BscError};
 use super::csv::RowError;
+use super::milky_way::{self, Picture};
 use super::moon::albedo::{self, Calibration};
 use super::moon::{hapke, relief};
 use super::places;
 use super::seal::sha256_hex;
 use super::stars;
-use super::{CatalogError, HAPKE_FILE, MOON_FILE, PLACES_FILE, RELIEF_FILE, STARS_FILE};
+use super::{CatalogError, HAPKE_FILE, MILKY_WAY_FILE, MOON_FILE, PLACES_FILE, RELIEF_FILE, STARS_FILE};
 
 /// The file that says where every other file comes from.
 pub const SOURCES_FILE: &str = "SOURCES.toml";
@@ -88,6 +89,16 @@ pub fn moon_hapke(f16_bytes: &[u8]) -> Result<Packed, CatalogError> {
     let bytes = hapke::encode(f16_bytes).map_err(|what| CatalogError::Picture { what })?;
     let summary = "cells of 2 degrees, 3 bands of 5 parameters".into();
     Ok(Packed { file: HAPKE_FILE, bytes, summary })
+}
+
+/// `milky_way.bin` from Gaia's sky in colour (red, green, blue, a byte each; galactic, `l = 0` in the
+/// middle, growing to the left).
+pub fn milky_way(rgb: &[u8], size: (usize, usize)) -> Result<Packed, CatalogError> {
+    let wrong = |what| CatalogError::Picture { what };
+    let bytes = milky_way::encode(&Picture::new(rgb, size).map_err(wrong)?).map_err(wrong)?;
+    let edge = milky_way::PACKED_SIZE;
+    let summary = format!("{edge} x {edge} texels from {} x {}", size.0, size.1);
+    Ok(Packed { file: MILKY_WAY_FILE, bytes, summary })
 }
 
 /// The text of `SOURCES.toml` with the SHA-256 of these files brought up to date.

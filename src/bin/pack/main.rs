@@ -4,6 +4,7 @@
 mod aerosols;
 mod kernels;
 mod mie;
+mod milky_way;
 
 use std::fs;
 use std::io::Write;
@@ -20,6 +21,8 @@ use nocturne::export::OutputFile;
 const MOON_PICTURE: &str = "moon_lroc_color_4096x2048.jpg";
 const MOON_RELIEF: &str = "moon_dem_8ppd_u16.png";
 const MOON_HAPKE: &str = "moon_hapke_sato2014_3x140x360x5.f16le";
+/// Nor is the picture of the Milky Way.
+const MILKY_WAY: &str = "milkyway_gaia_edr3_rgb_3600x1800.jpg";
 
 /// Pack the raw tables into the catalogues that nocturne reads.
 #[derive(Parser)]
@@ -41,6 +44,10 @@ struct Args {
     /// [default: moon_hapke_sato2014_3x140x360x5.f16le, likewise]
     #[arg(long, value_name = "FILE")]
     hapke: Option<PathBuf>,
+    /// Gaia's sky in colour
+    /// [default: milkyway_gaia_edr3_rgb_3600x1800.jpg, likewise]
+    #[arg(long, value_name = "FILE")]
+    milky_way: Option<PathBuf>,
     /// Directory of the kernels; the table of one that is not there stays as it is
     #[arg(long, value_name = "DIR", default_value = "target/kernels")]
     kernels: PathBuf,
@@ -70,10 +77,11 @@ fn run(args: &Args) -> Result<bool, String> {
         pack::places(&args.raw).map_err(|error| error.to_string())?,
         nutation()?,
     ];
-    let maps: [(_, _, PackMap<'_>); 3] = [
+    let maps: [(_, _, PackMap<'_>); 4] = [
         (MOON_PICTURE, &args.moon, &|path| moon(&args.raw, path)),
         (MOON_RELIEF, &args.relief, &relief),
         (MOON_HAPKE, &args.hapke, &hapke),
+        (MILKY_WAY, &args.milky_way, &milky_way::pack),
     ];
     for (usual, given, pack) in maps {
         let among_raw = args.raw.join(usual);
