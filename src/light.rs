@@ -25,6 +25,7 @@ pub mod spectrum;
 pub mod star_colour;
 pub mod star_light;
 pub mod star_spectrum;
+pub mod starlight;
 pub mod sun;
 
 pub use point_light::PointLight;

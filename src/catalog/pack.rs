@@ -5,6 +5,9 @@
 use std::fs;
 use std::path::Path;
 
+use crate::frame::{Dir, Galactic};
+use crate::units::Angle;
+
 use super::bsc5::{self, BscError};
 use super::csv::RowError;
 use super::milky_way::{self, Picture};
@@ -13,7 +16,9 @@ use super::moon::{hapke, relief};
 use super::places;
 use super::seal::sha256_hex;
 use super::stars;
-use super::{CatalogError, HAPKE_FILE, MILKY_WAY_FILE, MOON_FILE, PLACES_FILE, RELIEF_FILE, STARS_FILE};
+use super::{
+    CatalogError, HAPKE_FILE, MILKY_WAY_FILE, MOON_FILE, PLACES_FILE, RELIEF_FILE, STARS_FILE,
+};
 
 /// The file that says where every other file comes from.
 pub const SOURCES_FILE: &str = "SOURCES.toml";
@@ -99,6 +104,30 @@ pub fn milky_way(rgb: &[u8], size: (usize, usize)) -> Result<Packed, CatalogErro
     let edge = milky_way::PACKED_SIZE;
     let summary = format!("{edge} x {edge} texels from {} x {}", size.0, size.1);
     Ok(Packed { file: MILKY_WAY_FILE, bytes, summary })
+}
+
+/// A table of places (`name,l_deg,b_deg`, further columns are replaced) with the starlight that the
+/// picture of [`milky_way`] has within half a degree of them: S10(V) and colour, before packing.
+pub fn starlight_table(
+    rgb: &[u8],
+    size: (usize, usize),
+    places: &str,
+) -> Result<String, CatalogError> {
+    let wrong = |what| CatalogError::Picture { what };
+    let picture = Picture::new(rgb, size).map_err(wrong)?;
+    let mut table = String::from("name,l_deg,b_deg,s10,colour\n");
+    for line in places.lines().skip(1) {
+        let mut cells = line.split(',');
+        let (name, l, b) = (cells.next(), cells.next(), cells.next());
+        let number = |cell: Option<&str>| cell.and_then(|cell| cell.trim().parse::<f64>().ok());
+        let (Some(name), Some(l), Some(b)) = (name, number(l), number(b)) else {
+            return Err(wrong(format!("cannot be read at {line:?}, which is no name,l_deg,b_deg")));
+        };
+        let dir = Dir::<Galactic>::from_spherical(Angle::from_deg(l), Angle::from_deg(b));
+        let (s10, colour) = picture.mean_within(dir.vector(), Angle::from_deg(0.5));
+        table += &format!("{name},{l},{b},{s10:.3},{colour:.4}\n");
+    }
+    Ok(table)
 }
 
 /// The text of `SOURCES.toml` with the SHA-256 of these files brought up to date.

@@ -48,6 +48,10 @@ struct Args {
     /// [default: milkyway_gaia_edr3_rgb_3600x1800.jpg, likewise]
     #[arg(long, value_name = "FILE")]
     milky_way: Option<PathBuf>,
+    /// Table of places (name,l_deg,b_deg) whose starlight is told from that picture before it is
+    /// packed; the file is written anew, and nothing is packed
+    #[arg(long, value_name = "FILE", requires = "milky_way")]
+    starlight_table: Option<PathBuf>,
     /// Directory of the kernels; the table of one that is not there stays as it is
     #[arg(long, value_name = "DIR", default_value = "target/kernels")]
     kernels: PathBuf,
@@ -72,6 +76,10 @@ type PackMap<'a> = &'a dyn Fn(&Path) -> Result<Packed, String>;
 
 /// True if all is well: written, or found to be the same.
 fn run(args: &Args) -> Result<bool, String> {
+    if let (Some(table), Some(picture)) = (&args.starlight_table, &args.milky_way) {
+        put(table, milky_way::table(picture, table)?.as_bytes())?;
+        return Ok(true);
+    }
     let mut packed = vec![
         pack::stars(&args.raw).map_err(|error| error.to_string())?,
         pack::places(&args.raw).map_err(|error| error.to_string())?,

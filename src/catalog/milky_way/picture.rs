@@ -31,6 +31,7 @@ const MIDDLE_TO_WIDE_DEG: (f64, f64) = (30.0, 45.0);
 const KEPT_DEG: [(f64, f64, f64, f64); 2] = [(279.5, -33.2, 6.5, 2.0), (303.5, -44.3, 3.5, 1.5)];
 
 /// A map in plate carrée: `l = 0` in the middle, growing to the left; north above.
+#[derive(Debug)]
 struct Grid {
     width: usize,
     height: usize,
@@ -38,6 +39,7 @@ struct Grid {
 }
 
 /// The light and the colour of the picture in any direction.
+#[derive(Debug)]
 pub struct Picture {
     /// S10(V), without dots: as fine as the picture, and smoothed twice, from a map of half the size.
     fine: Grid,
@@ -88,7 +90,11 @@ impl Picture {
             let (light, share) = (masked.blurred(width_deg), open.blurred(width_deg));
             half.like(|at, _| {
                 // In the middle of what is kept there is nothing else, and nobody looks.
-                if share.values[at] > 1e-3 { light.values[at] / share.values[at] } else { FLOOR_S10 }
+                if share.values[at] > 1e-3 {
+                    light.values[at] / share.values[at]
+                } else {
+                    FLOOR_S10
+                }
             })
         });
         Ok(Picture { fine, middle, wide, colour })
@@ -130,10 +136,10 @@ impl Picture {
 }
 
 /// Directions spread evenly over a small disc around one.
-pub fn disc(dir: DVec3, radius: Angle) -> impl Iterator<Item = DVec3> {
+fn disc(dir: DVec3, radius: Angle) -> impl Iterator<Item = DVec3> {
     const COUNT: usize = 400;
-    let [side, up] = [dir.any_orthonormal_vector(); 2];
-    let up = dir.cross(up);
+    let side = dir.any_orthonormal_vector();
+    let up = dir.cross(side);
     (0..COUNT).map(move |k| {
         let distance = radius.rad() * ((k as f64 + 0.5) / COUNT as f64).sqrt();
         let turn = PI * (3.0 - 5f64.sqrt()) * k as f64;
@@ -258,8 +264,7 @@ impl Grid {
                     let row = if row < 0 { -1 - row } else { row.min(2 * height as i64 - 1 - row) };
                     (PI * (row as f64 + 0.5) / height as f64).sin()
                 };
-                let light =
-                    |row| before.values[before.index(column as i64, row)] * weight(row);
+                let light = |row| before.values[before.index(column as i64, row)] * weight(row);
                 let mut area = vec![0.0; height];
                 running_mean(radius, weight, &mut area);
                 running_mean(radius, light, line);

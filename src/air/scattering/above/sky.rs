@@ -7,6 +7,8 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
+
 use super::super::harmonics::{MAX_COEFFICIENTS, MAX_DEGREE, gauss_legendre, index};
 use super::legendre::Legendre;
 use crate::units::Angle;
@@ -64,6 +66,27 @@ impl SkyHarmonics {
                         sky.sin[index(l, m)] += p * seen * sine;
                     });
                 }
+            }
+        }
+        sky
+    }
+
+    /// Of a light made of many small patches: the direction of each (z to the zenith, x to azimuth 0)
+    /// and its radiance times its solid angle. Nothing is sampled, so detail of any size is right.
+    pub fn of_points(points: impl IntoIterator<Item = (DVec3, f64)>) -> SkyHarmonics {
+        let mut sky = SkyHarmonics::DARK;
+        let orders: Vec<Legendre> =
+            (0..=MAX_DEGREE).map(|m| Legendre::new(m, MAX_DEGREE)).collect();
+        for (dir, light) in points {
+            let (sine_1, cosine_1) = dir.y.atan2(dir.x).sin_cos();
+            let (mut sine, mut cosine) = (0.0, 1.0);
+            for (m, legendre) in orders.iter().enumerate() {
+                legendre.each(dir.z, |l, p| {
+                    sky.cos[index(l, m)] += p * light * cosine;
+                    sky.sin[index(l, m)] += p * light * sine;
+                });
+                (sine, cosine) =
+                    (sine * cosine_1 + cosine * sine_1, cosine * cosine_1 - sine * sine_1);
             }
         }
         sky
@@ -133,6 +156,25 @@ mod tests {
         for (e, a) in [(90.0, 0.0), (30.0, 77.0), (-12.0, 200.0), (2.0, 300.0), (-80.0, 10.0)] {
             let got = harmonics.radiance(angle(e), angle(a));
             assert!((got - sky(angle(e), angle(a))).abs() < 1e-12, "{e} {a}: {got}");
+        }
+    }
+
+    #[test]
+    fn points_make_the_sky_that_they_are() {
+        let light = |dir: DVec3| 1.0 + 0.3 * dir.x - 0.7 * dir.y * dir.z;
+        let points: Vec<(DVec3, f64)> = (0..20_000)
+            .map(|k| {
+                let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0;
+                let (sine, cosine) = (2.399_963_229_728_653 * f64::from(k)).sin_cos();
+                let dir = DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z);
+                (dir, light(dir) * 4.0 * PI / 20_000.0)
+            })
+            .collect();
+        let harmonics = SkyHarmonics::of_points(points);
+        for (e, a) in [(90.0, 0.0), (30.0, 77.0), (-12.0, 200.0), (-80.0, 10.0)] {
+            let (e, a) = (angle(e), angle(a));
+            let dir = DVec3::new(e.cos() * a.cos(), e.cos() * a.sin(), e.sin());
+            assert!((harmonics.radiance(e, a) - light(dir)).abs() < 2e-3);
         }
     }
 
