@@ -40,19 +40,12 @@
 //! - The colour comes from red over blue of the picture, smoothed over a degree, and is brought to that
 //!   of B-V 0.72 towards the poles, where the picture's coding leaves no more than steps of colour.
 //!
-<<<<<<< HEAD
-//! Accuracy: bands of 10 degrees of latitude within 12 % of the profile when the fluctuation of bright
-//! stars is left out. The profile itself is known to some 15 %; single places to some 30 %, as the
-//! picture's tones are not told. Checks that nothing was fitted to: the great cloud in Sagittarius has
-//! 520 S10(V) and that in Scutum 400 (some 300 to 500 are told), the galactic poles with the
-=======
 //! Accuracy (`tests/starlight.rs`): packing changes the light within half a degree by 2 % at most. Map
 //! and catalogue together: 103.4 S10(V) over the sky, bands of 10 degrees within 5 % of the profile to
 //! 50 degrees of latitude, 12 and 18 % above it to 60 and 70, where bright stars happen to stand.
 //! The profile itself is known to some 15 %; single places to some 30 %, as the
 //! picture's tones are not told. Checks that nothing was fitted to: the great cloud in Sagittarius has
 //! 520 S10(V) and that in Scutum 410 (some 300 to 500 are told), the galactic poles with the
->>>>>>> map6
 //! catalogue's stars 26 (20 to 30); the Magellanic Clouds stand out from the sky with the light of V
 //! 0.8 and 2.6 (0.4 and 2.2 are told, their brighter stars included). The picture knows stars alone:
 //! bright nebulae (the Great Nebula of Orion, Carina) and galaxies are not in it.

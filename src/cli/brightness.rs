@@ -59,7 +59,7 @@ pub struct BrightnessArgs {
     /// Width and height of the map in pixels
     #[arg(long, value_name = "PX", default_value_t = 512, value_parser = clap::value_parser!(u32).range(16..=8192))]
     map_size: u32,
-    /// The air: a name that `nocturne atmosphere` lists, or a file [default: clear]
+    /// The air: a name that `nocturne atmosphere` lists, or a file [default: clear, with less haze on heights]
     #[arg(long, value_name = "NAME|FILE")]
     atmosphere: Option<String>,
     #[command(flatten)]
@@ -78,7 +78,8 @@ pub fn run(
         .location
         .find(catalogs)?
         .ok_or_else(|| CliError::Usage("say where: --place NAME, or --lat and --lon".to_owned()))?;
-    let air = args.atmosphere.as_deref().map(atmosphere::find).transpose()?.unwrap_or_default();
+    let given = args.atmosphere.as_deref().map(atmosphere::find).transpose()?;
+    let air = given.unwrap_or_else(|| Atmosphere::clear_over(place.height_m));
     air.validate_at(place.height_m).map_err(|error| CliError::Usage(error.to_string()))?;
     let glow = args.glow.change(NightGlow::default())?;
     let maps = map::open(&args.map)?;

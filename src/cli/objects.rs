@@ -87,7 +87,7 @@ pub fn run(args: &ObjectsArgs, catalogs: &Catalogs, out: &mut impl Write) -> Res
         &instant,
         &place,
         TOLERANCE,
-        &Atmosphere::default(),
+        &Atmosphere::clear_over(place.height_m),
         Danjon::default(),
         catalogs,
     )?;

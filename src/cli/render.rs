@@ -49,7 +49,7 @@ pub struct RenderArgs {
     /// Width and height in pixels [default: 1280x720]
     #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
-    /// The air: a name that `nocturne atmosphere` lists, or a file [default: clear]
+    /// The air: a name that `nocturne atmosphere` lists, or a file [default: clear, with less haze on heights]
     #[arg(long, value_name = "NAME|FILE")]
     atmosphere: Option<String>,
     /// Leave out stars and planets fainter than this
@@ -255,7 +255,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         scintillation: None,
         night: NightGlow::default(),
         moon: SceneMoon::default(),
-        air: Atmosphere::default(),
+        air: Atmosphere::clear_over(place.height_m),
         eye: Eye::default(),
         marks: Marks::default(),
     });

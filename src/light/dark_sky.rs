@@ -269,8 +269,10 @@ impl DarkSky {
         let stars = lights.starlight.iter().flat_map(move |(stars, axes)| {
             let dir = *axes * dir;
             let s10 = stars.s10(dir);
-            let undrawn = lights.undrawn.as_ref().map_or(0.0, |glow| glow.s10(dir));
-            let dust = starlight::diffuse_galactic(s10, dir.latitude());
+            let s10_of = |glow: &Option<Arc<StarGlow>>| glow.as_ref().map_or(0.0, |g| g.s10(dir));
+            let undrawn = s10_of(&lights.undrawn);
+            let all_stars = s10 + s10_of(&lights.catalogue);
+            let dust = starlight::diffuse_galactic(all_stars, dir.latitude());
             [
                 (Component::Starlight, stars.spectrum(dir)),
                 (Component::Starlight, star_spectrum(MIDDLE_COLOUR) * undrawn),
@@ -340,7 +342,7 @@ impl DarkSky {
 
     /// Luminance at a grid of apparent altitudes and of azimuths, rows first, cd/m2: all that
     /// [`DarkSky::radiance`] tells, but for what comes straight from stars that are in no catalogue
-    /// and from dust, whose detail is finer.
+    /// and from the dust that they light, whose detail is finer.
     pub fn luminances(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Vec<Xyzv> {
         let towns = self.lights.towns.as_ref().map(|towns| towns.luminances(altitudes, azimuths));
         let rows = altitudes.par_iter().enumerate().flat_map_iter(|(row, &altitude)| {
@@ -401,7 +403,8 @@ impl DarkSky {
             even += (starlight::cosmic() * passed).xyzv();
         }
         let star = (star_spectrum(MIDDLE_COLOUR) * passed).xyzv();
-        Some(Straight { even, zodiacal: [reddest, least], star })
+        let dust = self.of_one_s10(altitude)?.dust;
+        Some(Straight { even, zodiacal: [reddest, least], star, dust })
     }
 
     /// Spectral irradiance of level ground by each light, W m-2 nm-1, towns in [`TownGlow`] alone.
@@ -449,8 +452,9 @@ struct Straight {
     even: Xyzv,
     /// Of a radiance of 1 at 500 nm, reddest and least red.
     zodiacal: [Xyzv; 2],
-    /// Of 1 S10.
+    /// Of 1 S10(V) of the catalogue's stars, and of dust that sends all of it back.
     star: Xyzv,
+    dust: Xyzv,
 }
 
 impl Straight {
@@ -464,8 +468,14 @@ impl Straight {
             let [reddest, least] = self.zodiacal;
             light += (reddest * redness + least * (1.0 - redness)) * level;
         }
-        if let (Some((_, axes)), Some(glow)) = (&sky.lights.starlight, &sky.lights.undrawn) {
-            light += self.star * glow.s10(*axes * outside);
+        if let Some((_, axes)) = &sky.lights.starlight {
+            let dir = *axes * outside;
+            if let Some(glow) = &sky.lights.undrawn {
+                light += self.star * glow.s10(dir);
+            }
+            if let Some(stars) = &sky.lights.catalogue {
+                light += self.dust * (stars.s10(dir) * starlight::diffuse_share(dir.latitude()));
+            }
         }
         light
     }

@@ -67,15 +67,12 @@ fn starlight(s10: f64, colour: f64) -> Spectrum {
     blue * (s10 * (1.0 - colour)) + red * (s10 * colour)
 }
 
-<<<<<<< HEAD
 /// What dust scatters at a galactic latitude, as a share of the light of all stars there, by luminance.
 pub fn diffuse_share(b: Angle) -> f64 {
     let (plane, poles) = DIFFUSE_SHARE;
     plane + (poles - plane) * b.sin().abs()
 }
 
-=======
->>>>>>> map6
 /// Spectral radiance of the starlight that dust scatters, W m-2 sr-1 nm-1, by the brightness of all
 /// stars there in S10(V) and the galactic latitude.
 pub fn diffuse_galactic(s10_of_starlight: f64, b: Angle) -> Spectrum {
@@ -84,12 +81,7 @@ pub fn diffuse_galactic(s10_of_starlight: f64, b: Angle) -> Spectrum {
             .weighted(|nm| (nm / 550.0).powf(DIFFUSE_POWER))
             .scaled_to_photopic(S10_CD_M2)
     });
-<<<<<<< HEAD
     *OF_S10 * (s10_of_starlight * diffuse_share(b))
-=======
-    let (plane, poles) = DIFFUSE_SHARE;
-    *OF_S10 * (s10_of_starlight * (plane + (poles - plane) * b.sin().abs()))
->>>>>>> map6
 }
 
 /// Spectral radiance of the galaxies beyond our own, W m-2 sr-1 nm-1: the same everywhere.
