@@ -24,8 +24,9 @@
 //! lights themselves err by more, each as its module says, airglow by a factor of 2 from night to
 //! night. Bending of rays is not in van Rhijn's factor: 1 % at the horizon.
 
+use std::borrow::Cow;
 use std::fmt;
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -110,6 +111,8 @@ struct Inner {
     sight: SightLines,
     horizon: Angle,
     refraction: Refraction,
+    /// Of the table that was asked for first: pictures ask for the same again.
+    rows: OnceLock<Vec<Row>>,
 }
 
 impl fmt::Debug for NightAir {
@@ -135,6 +138,7 @@ impl NightAir {
             horizon: sight.horizon(),
             sight,
             refraction: air.refraction_at(height_m),
+            rows: OnceLock::new(),
         };
         Ok(NightAir { inner: Arc::new(inner) })
     }
@@ -157,6 +161,22 @@ impl NightAir {
     /// The ray of a view.
     fn view(&self, altitude: Angle) -> DiffuseView {
         self.inner.tables.view(self.inner.eye_km, altitude)
+    }
+
+    /// The altitudes of a table.
+    fn rows(&self, altitudes: &[Angle]) -> Cow<'_, [Row]> {
+        let make = || -> Vec<Row> {
+            let row = |&altitude: &Angle| Row {
+                altitude,
+                view: self.view(altitude),
+                passed: self.transmittance(altitude),
+            };
+            altitudes.par_iter().map(row).collect()
+        };
+        let known = self.inner.rows.get_or_init(make);
+        let is_same = known.len() == altitudes.len()
+            && known.iter().zip(altitudes).all(|(row, altitude)| row.altitude == *altitude);
+        if is_same { Cow::Borrowed(known) } else { Cow::Owned(make()) }
     }
 
     /// Where light comes from that is seen in an apparent direction.
@@ -189,15 +209,30 @@ impl NightLights {
     }
 }
 
-/// A light while it is scattered.
+/// Lights of one shape while they are scattered.
 #[derive(Debug, Clone)]
 struct Scattered {
-    component: Component,
     field: DiffuseField,
     /// What the field is a factor of.
-    spectrum: Spectrum,
-    /// What X, Y, Z and V make of the field's wavelengths.
+    spectra: Vec<(Component, Spectrum)>,
+    /// What X, Y, Z and V make of the field's wavelengths, all these lights together.
     weights: Vec<Xyzv>,
+}
+
+impl Scattered {
+    fn new(field: DiffuseField, spectra: Vec<(Component, Spectrum)>) -> Scattered {
+        let weights = weights(&spectra.iter().map(|(_, spectrum)| *spectrum).sum());
+        Scattered { field, spectra, weights }
+    }
+}
+
+/// An altitude of a table.
+#[derive(Clone)]
+struct Row {
+    altitude: Angle,
+    view: DiffuseView,
+    /// Nothing from below the horizon.
+    passed: Option<Transmittance>,
 }
 
 /// The dark sky over one observer.
@@ -212,10 +247,10 @@ impl DarkSky {
     /// The lights through the air. Takes some 10 ms.
     pub fn new(air: &NightAir, lights: NightLights) -> DarkSky {
         let tables = &air.inner.tables;
-        let mut sources: Vec<(Component, DiffuseField, Spectrum)> = Vec::new();
+        let mut scattered = Vec::new();
         for layer in &lights.airglow {
             let field = tables.lit_from(glowing_layer(layer.height_km));
-            sources.push((Component::Airglow, field, layer.zenith));
+            scattered.push(Scattered::new(field, vec![(Component::Airglow, layer.zenith)]));
         }
         if let Some(axes) = lights.helioecliptic_from_horizon {
             let sky = SkyHarmonics::from_fn(|elevation, azimuth| {
@@ -224,7 +259,8 @@ impl DarkSky {
                 zodiacal::radiance_500(dir.longitude(), dir.latitude())
             });
             let spectrum = zodiacal_spectrum(1.0, SCATTERED_REDNESS);
-            sources.push((Component::Zodiacal, tables.lit_by(&sky), spectrum));
+            let light = vec![(Component::Zodiacal, spectrum)];
+            scattered.push(Scattered::new(tables.lit_by(&sky), light));
         }
         if let Some((stars, axes)) = &lights.starlight {
             let mut of_galaxy = stars.harmonics().clone();
@@ -240,18 +276,14 @@ impl DarkSky {
             });
             let field = tables.lit_by(&sky);
             let of_dust = starlight::diffuse_galactic(1.0, MIDDLE_LATITUDE);
-            sources.push((Component::Galactic, field.clone(), of_dust));
-            sources.push((Component::Starlight, field, star_spectrum(MIDDLE_COLOUR)));
-            let even = tables.lit_by(&SkyHarmonics::uniform(1.0));
-            sources.push((Component::Cosmic, even, starlight::cosmic()));
+            let of_stars = star_spectrum(MIDDLE_COLOUR);
+            let lights = vec![(Component::Galactic, of_dust), (Component::Starlight, of_stars)];
+            scattered.push(Scattered::new(field, lights));
+            let even = tables.lit_from(|_, _| 1.0);
+            let light = vec![(Component::Cosmic, starlight::cosmic())];
+            scattered.push(Scattered::new(even, light));
         }
-        let scattered = sources.into_iter().map(|(component, field, spectrum)| Scattered {
-            component,
-            field,
-            weights: weights(&spectrum),
-            spectrum,
-        });
-        DarkSky { air: air.clone(), lights, scattered: scattered.collect() }
+        DarkSky { air: air.clone(), lights, scattered }
     }
 
     /// What comes straight from outside in a direction, without the air; airglow as seen from the
@@ -296,7 +328,9 @@ impl DarkSky {
         for light in &self.scattered {
             let mut nodes = [0.0; SKY_NODES_NM.len()];
             light.field.radiance(&view, dir.azimuth(), &mut nodes);
-            add(light.component, at_nodes(&light.spectrum, &nodes));
+            for (component, spectrum) in &light.spectra {
+                add(*component, at_nodes(spectrum, &nodes));
+            }
         }
         if let Some(passed) = self.air.transmittance(altitude) {
             let outside = self.outside(self.air.outside(dir));
@@ -322,11 +356,7 @@ impl DarkSky {
     /// What arrives of starlight of 1 S10(V) at an apparent altitude, of the bluest and of the reddest
     /// mix of stars, and of what dust sends back, cd/m2; nothing from below the horizon.
     pub fn of_one_s10(&self, altitude: Angle) -> Option<OneS10> {
-        let passed = self.air.transmittance(altitude)?;
-        let [blue, red] = starlight::spectra_of_s10().map(|spectrum| (spectrum * passed).xyzv());
-        let in_plane = starlight::diffuse_galactic(1.0, Angle::ZERO) * passed;
-        let dust = in_plane.xyzv() * starlight::diffuse_share(Angle::ZERO).recip();
-        Some(OneS10 { blue, red, dust })
+        self.air.transmittance(altitude).map(one_s10)
     }
 
     /// Where the Milky Way is seen: the galactic direction of an apparent one.
@@ -345,26 +375,29 @@ impl DarkSky {
     /// and from the dust that they light, whose detail is finer.
     pub fn luminances(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Vec<Xyzv> {
         let towns = self.lights.towns.as_ref().map(|towns| towns.luminances(altitudes, azimuths));
-        let rows = altitudes.par_iter().enumerate().flat_map_iter(|(row, &altitude)| {
-            let is_above = altitude >= self.air.horizon();
-            let around = self.scattered_around(altitude);
-            let straight = self.straight(altitude);
-            let towns = towns.as_ref();
-            azimuths.iter().enumerate().map(move |(column, &azimuth)| {
-                let mut light = around.at(azimuth);
+        let turns: Vec<Turn> = azimuths.iter().map(|azimuth| turn(*azimuth)).collect();
+        let of_row = |(row, at): (usize, &Row)| {
+            let around = self.scattered_around(&at.view);
+            let straight = at.passed.map(|passed| self.straight(at.altitude, passed));
+            let mut lights = Vec::with_capacity(azimuths.len());
+            for (column, (&azimuth, turn)) in azimuths.iter().zip(&turns).enumerate() {
+                let mut light = around.at(turn);
                 if let Some(straight) = &straight {
-                    light += straight.at(self, Dir::from_azimuth_altitude(azimuth, altitude));
+                    light += straight.at(self, Dir::from_azimuth_altitude(azimuth, at.altitude));
                 }
-                if let Some(towns) = towns {
-                    light += match is_above {
-                        true => towns[row * azimuths.len() + column],
-                        false => self.town_ground(),
+                if let Some(towns) = &towns {
+                    light += match straight {
+                        Some(_) => towns[row * azimuths.len() + column],
+                        None => self.town_ground(),
                     };
                 }
-                light
-            })
-        });
-        rows.collect()
+                lights.push(light);
+            }
+            lights
+        };
+        let rows = self.air.rows(altitudes);
+        let rows: Vec<Vec<Xyzv>> = rows.par_iter().enumerate().map(of_row).collect();
+        rows.concat()
     }
 
     fn town_ground(&self) -> Xyzv {
@@ -374,11 +407,10 @@ impl DarkSky {
     }
 
     /// The scattered light of an altitude, in all azimuths.
-    fn scattered_around(&self, altitude: Angle) -> Waves {
-        let view = self.air.view(altitude);
+    fn scattered_around(&self, view: &DiffuseView) -> Waves {
         let mut waves = vec![[Xyzv::BLACK; 2]; SkyHarmonics::DEGREE + 1];
         for light in &self.scattered {
-            for (sum, wave) in waves.iter_mut().zip(light.field.around(&view).waves()) {
+            for (sum, wave) in waves.iter_mut().zip(light.field.around(view).waves()) {
                 for (sum, wave) in sum.iter_mut().zip(wave) {
                     for (factor, weight) in wave.iter().zip(&light.weights) {
                         *sum += *weight * *factor;
@@ -389,9 +421,8 @@ impl DarkSky {
         Waves(waves)
     }
 
-    /// What shines straight at an altitude; nothing from below the horizon.
-    fn straight(&self, altitude: Angle) -> Option<Straight> {
-        let passed = self.air.transmittance(altitude)?;
+    /// What shines straight at an altitude, by what the air lets through.
+    fn straight(&self, altitude: Angle, passed: Transmittance) -> Straight {
         let [reddest, least] = zodiacal::spectra().map(|spectrum| (spectrum * passed).xyzv());
         let dir = self.air.outside(Dir::from_azimuth_altitude(Angle::ZERO, altitude));
         let even = self.lights.airglow.iter().map(|layer| {
@@ -403,16 +434,20 @@ impl DarkSky {
             even += (starlight::cosmic() * passed).xyzv();
         }
         let star = (star_spectrum(MIDDLE_COLOUR) * passed).xyzv();
-        let dust = self.of_one_s10(altitude)?.dust;
-        Some(Straight { even, zodiacal: [reddest, least], star, dust })
+        let dust = one_s10(passed).dust;
+        Straight { even, zodiacal: [reddest, least], star, dust }
     }
 
     /// Spectral irradiance of level ground by each light, W m-2 nm-1, towns in [`TownGlow`] alone.
     pub fn ground_irradiance(&self) -> Vec<(Component, Spectrum)> {
         let of = |light: &Scattered| {
-            (light.component, at_nodes(&light.spectrum, &light.field.ground_irradiance()))
+            let factors = light.field.ground_irradiance();
+            let spectra = light.spectra.iter();
+            spectra
+                .map(move |(component, spectrum)| (*component, at_nodes(spectrum, &factors)))
+                .collect::<Vec<_>>()
         };
-        self.scattered.iter().map(of).collect()
+        self.scattered.iter().flat_map(of).collect()
     }
 
     /// Illuminance of level ground, lux.
@@ -433,16 +468,31 @@ pub struct OneS10 {
     pub dust: Xyzv,
 }
 
+fn one_s10(passed: Transmittance) -> OneS10 {
+    let [blue, red] = starlight::spectra_of_s10().map(|spectrum| (spectrum * passed).xyzv());
+    let in_plane = starlight::diffuse_galactic(1.0, Angle::ZERO) * passed;
+    let dust = in_plane.xyzv() * starlight::diffuse_share(Angle::ZERO).recip();
+    OneS10 { blue, red, dust }
+}
+
+/// Cosines and sines of an azimuth, by order.
+type Turn = [(f64, f64); SkyHarmonics::DEGREE + 1];
+
+fn turn(azimuth: Angle) -> Turn {
+    std::array::from_fn(|order| {
+        let (sine, cosine) = (azimuth * order as f64).sin_cos();
+        (cosine, sine)
+    })
+}
+
 /// Light that changes with the azimuth as a few waves do.
 struct Waves(Vec<[Xyzv; 2]>);
 
 impl Waves {
-    fn at(&self, azimuth: Angle) -> Xyzv {
-        let wave = |(order, [cos, sin]): (usize, &[Xyzv; 2])| {
-            let (sine, cosine) = (azimuth * order as f64).sin_cos();
-            *cos * cosine + *sin * sine
-        };
-        self.0.iter().enumerate().map(wave).sum()
+    fn at(&self, turn: &Turn) -> Xyzv {
+        let wave =
+            |([cos, sin], (cosine, sine)): (&[Xyzv; 2], &(f64, f64))| *cos * *cosine + *sin * *sine;
+        self.0.iter().zip(turn).map(wave).sum()
     }
 }
 

@@ -20,8 +20,11 @@ const GAUSS_4: [(f64, f64); 4] = [
     (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
-/// People on a square kilometre of settled land all round, and how far it reaches.
-const LAND_PER_KM2: f64 = 400.0;
+/// People on a square kilometre of settled land all round in its middle, how fast they grow fewer
+/// outwards (a city of two millions: Clark 1951 has an exponential fall, the numbers are ours), and how
+/// far it is followed.
+const LAND_PER_KM2: f64 = 2000.0;
+const LAND_FALLS_KM: f64 = 12.0;
 const LAND_KM: f64 = 100.0;
 /// The widest gap in it, kilometres.
 const WIDEST_GAP_KM: f64 = 50.0;
@@ -147,8 +150,10 @@ pub(super) fn all_round(
     // Lumens of a ring, and the distance that stands for it.
     let ring = |ring: usize| {
         let (from, to) = (edge(ring), edge(ring + 1));
-        let people = LAND_PER_KM2 * PI * (to * to - from * from);
-        (LUMENS_A_HEAD * people * PER_M2, (0.5 * (from * from + to * to)).sqrt())
+        let distance_km = (0.5 * (from * from + to * to)).sqrt();
+        let per_km2 = LAND_PER_KM2 * (-distance_km / LAND_FALLS_KM).exp();
+        let people = per_km2 * PI * (to * to - from * from);
+        (LUMENS_A_HEAD * people * PER_M2, distance_km)
     };
     let of_ring = |altitude: usize, lumens: f64, distance_km: f64| {
         light.mean(altitude, distance_km, [0.0, PI]).map(|value| lumens * value)
