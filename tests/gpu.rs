@@ -13,7 +13,7 @@ use nocturne::camera::{Camera, Projection};
 use nocturne::frame::{Apparent, Dir, Horizon};
 use nocturne::image::HdrFrame;
 use nocturne::plan::disc::{Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
-use nocturne::plan::{FramePlan, SKY_SHAPE, SkyPlan, SourceSky, Splat};
+use nocturne::plan::{DARK_AZIMUTHS, FramePlan, SKY_SHAPE, SkyPlan, SourceSky, Splat};
 use nocturne::render::Renderer;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
 use nocturne::units::{Angle, Xyzv};
@@ -133,7 +133,8 @@ fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
             ..black_view(Angle::ZERO)
         },
     };
-    let dark = |row: usize| {
+    let dark = |node: usize| {
+        let row = node / DARK_AZIMUTHS;
         let altitude = SKY_SHAPE.elevation(row, Angle::ZERO).deg();
         if SKY_SHAPE.is_above(row) {
             Xyzv::new(0.0, 0.0, altitude, 1.0)
@@ -146,7 +147,7 @@ fn the_sky_table_is_looked_up(renderer: &Renderer) -> Result<(), Failed> {
         sun: Some(source(sun_azimuth, |a| [a, 0.0, 0.0, 0.0])),
         sun_left: None,
         moon: Some(source(moon_azimuth, |a| [0.0, a, 0.0, 0.0])),
-        dark: (0..SKY_SHAPE.rows()).map(dark).collect(),
+        dark: (0..SKY_SHAPE.rows() * DARK_AZIMUTHS).map(dark).collect(),
     };
     for (projection, fov_deg) in PROJECTIONS {
         let camera = camera(projection, fov_deg, 320, 180);
@@ -234,8 +235,15 @@ fn hazy_sky(sun_azimuth: Angle, sun_elevation: Angle) -> SkyPlan {
         sun: Some(source(sun_azimuth, sun_elevation, 1.0)),
         sun_left: None,
         moon: Some(source(sun_azimuth + Angle::from_deg(100.0), Angle::from_deg(20.0), 0.3)),
-        dark: vec![Xyzv::new(1.0, 1.0, 1.0, 2.0); SKY_SHAPE.rows()],
+        dark: (0..SKY_SHAPE.rows() * DARK_AZIMUTHS).map(dark_light).collect(),
     }
+}
+
+/// A dark sky that is brightest in the east-south-east, by the node of its table.
+fn dark_light(node: usize) -> Xyzv {
+    let azimuth = Angle::from_deg(360.0 * (node % DARK_AZIMUTHS) as f64 / DARK_AZIMUTHS as f64);
+    let wave = (azimuth - Angle::from_deg(110.0)).cos();
+    Xyzv::new(20.0 + 9.0 * wave, 20.0 + 8.0 * wave, 20.0 - 3.0 * wave, 40.0 + 10.0 * wave)
 }
 
 /// The largest relative difference of two lights, in any of X, Y, Z and V.

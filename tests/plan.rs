@@ -81,9 +81,9 @@ fn a_moonless_night_builds_no_table_and_reads_no_map() {
     let counted = stars.drawn + stars.skipped.iter().map(|(_, count)| count).sum::<usize>();
     assert_eq!(counted, 9096);
     assert!(stars.drawn > 1500, "{stars:?}");
-    // The dark sky has the brightness that it is said to have in the zenith.
+    // The dark sky is as bright in the zenith as at a maximum of the Sun's activity: 21.4 to 22.
     let zenith = plan.sky.luminance(down_by(-90.0)).y;
-    assert!((zenith / 1.71e-4 - 1.0).abs() < 0.02, "{zenith}");
+    assert!((1.7e-4..3.0e-4).contains(&zenith), "{zenith}");
 }
 
 #[test]

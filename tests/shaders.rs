@@ -60,7 +60,7 @@ fn uniforms_have_one_layout_on_both_sides() {
         sky,
         "Sky",
         SkyUniform,
-        [sources, shines, azimuths, above, below, phases, horizon, half_pixel]
+        [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
     );
     let globe = parsed("globe", &assembled("globe"));
     same_layout!(

@@ -222,7 +222,10 @@ fn of_scene(
         .into_iter()
         .map(|[altitude, azimuth]| Dir::from_azimuth_altitude(azimuth, altitude))
         .collect();
-    let lights = looking_up(args.quiet).sky(&plan.sky, &dirs)?;
+    let mut lights = looking_up(args.quiet).sky(&plan.sky, &dirs)?;
+    if let Some(milky_way) = &plan.milky_way {
+        lights.iter_mut().zip(&dirs).for_each(|(light, dir)| *light += milky_way.luminance(*dir));
+    }
     Ok(lights.iter().map(|light| [light.x, light.y, light.z, light.v].map(Some).to_vec()).collect())
 }
 

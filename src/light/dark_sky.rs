@@ -215,14 +215,14 @@ struct Scattered {
     field: DiffuseField,
     /// What the field is a factor of.
     spectra: Vec<(Component, Spectrum)>,
-    /// What X, Y, Z and V make of the field's wavelengths, all these lights together.
-    weights: Vec<Xyzv>,
+    /// All these lights together.
+    spectrum: Spectrum,
 }
 
 impl Scattered {
     fn new(field: DiffuseField, spectra: Vec<(Component, Spectrum)>) -> Scattered {
-        let weights = weights(&spectra.iter().map(|(_, spectrum)| *spectrum).sum());
-        Scattered { field, spectra, weights }
+        let spectrum = spectra.iter().map(|(_, spectrum)| *spectrum).sum();
+        Scattered { field, spectra, spectrum }
     }
 }
 
@@ -410,9 +410,12 @@ impl DarkSky {
     fn scattered_around(&self, view: &DiffuseView) -> Waves {
         let mut waves = vec![[Xyzv::BLACK; 2]; SkyHarmonics::DEGREE + 1];
         for light in &self.scattered {
-            for (sum, wave) in waves.iter_mut().zip(light.field.around(view).waves()) {
+            let of_light = light.field.around(view).waves();
+            let Some([mean, _]) = of_light.first() else { continue };
+            let weights = weights(&light.spectrum, mean);
+            for (sum, wave) in waves.iter_mut().zip(&of_light) {
                 for (sum, wave) in sum.iter_mut().zip(wave) {
-                    for (factor, weight) in wave.iter().zip(&light.weights) {
+                    for (factor, weight) in wave.iter().zip(&weights) {
                         *sum += *weight * *factor;
                     }
                 }
@@ -562,18 +565,20 @@ static SPECTRUM_FROM_NODES: LazyLock<Matrix> = LazyLock::new(|| {
 /// A spectrum times a factor that is known at the wavelengths that are solved for.
 pub fn at_nodes(spectrum: &Spectrum, factors: &[f64]) -> Spectrum {
     let factors = SPECTRUM_FROM_NODES.spectrum(factors);
-    let node = |nm: f64| ((nm - wavelength_nm(0)) / (wavelength_nm(1) - wavelength_nm(0))).round();
-    spectrum.weighted(|nm| factors[node(nm) as usize])
+    spectrum.by_node(|node| factors[node])
 }
 
-/// What X, Y, Z and V make of each of these factors.
-fn weights(spectrum: &Spectrum) -> Vec<Xyzv> {
-    let one = |solved: usize| {
-        let mut factors = [0.0; SKY_NODES_NM.len()];
-        factors[solved] = 1.0;
-        at_nodes(spectrum, &factors).xyzv()
+/// What X, Y, Z and V make of each of these factors, for factors near some mean: a spectrum is rebuilt
+/// from logarithms, and light changes little in colour around the horizon.
+fn weights(spectrum: &Spectrum, mean: &[f64]) -> Vec<Xyzv> {
+    let light = at_nodes(spectrum, mean);
+    let weight = |(solved, mean): (usize, &f64)| {
+        if *mean <= 0.0 {
+            return Xyzv::BLACK;
+        }
+        light.by_node(|node| SPECTRUM_FROM_NODES.row(node)[solved] / mean).xyzv()
     };
-    (0..SKY_NODES_NM.len()).map(one).collect()
+    mean.iter().enumerate().map(weight).collect()
 }
 
 impl NightAir {

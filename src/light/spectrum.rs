@@ -122,6 +122,12 @@ impl Spectrum {
         if own > 0.0 { self * (y / own) } else { Spectrum::DARK }
     }
 
+    /// The same light, each node of the grid changed by a factor that carries no unit.
+    pub fn by_node(mut self, factor: impl Fn(usize) -> f64) -> Self {
+        self.0.iter_mut().enumerate().for_each(|(node, value)| *value *= factor(node));
+        self
+    }
+
     /// The same light, each wavelength changed by a factor that carries no unit.
     pub fn weighted(mut self, factor: impl Fn(f64) -> f64) -> Self {
         for (node, value) in self.0.iter_mut().enumerate() {
