@@ -13,7 +13,7 @@ use std::time::Instant as Clock;
 use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
-use nocturne::catalog::{Catalogs, MoonMaps, Star};
+use nocturne::catalog::{CatalogError, Catalogs, MilkyWay, MoonMaps, Star};
 use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
 use nocturne::frame::Dir;
@@ -21,6 +21,7 @@ use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
 use nocturne::light::star_light::StarLight;
 use nocturne::light::sun;
+use nocturne::plan::data::SkyData;
 use nocturne::plan::lay::{Kept, lay_in};
 use nocturne::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
 use nocturne::plan::{FramePlan, SkyPlan, Splat};
@@ -267,6 +268,21 @@ fn computations() {
     println!("  StarLight::new {:19.2}", median_ms(SLOW, starlight));
 }
 
+/// The catalogues, with the maps of the Moon read already.
+struct Maps<'a> {
+    catalogs: &'a Catalogs,
+    moon: &'a MoonMaps,
+}
+
+impl SkyData for Maps<'_> {
+    fn moon_maps(&self) -> Result<MoonMaps, CatalogError> {
+        Ok(self.moon.clone())
+    }
+    fn milky_way(&self) -> Result<Option<Arc<MilkyWay>>, CatalogError> {
+        SkyData::milky_way(self.catalogs)
+    }
+}
+
 /// Lays a night or a day, and prints what that takes.
 fn plan(
     name: &str,
@@ -289,7 +305,8 @@ fn plan(
     let night = light();
     let mut kept = Kept::new(Store::NONE);
     // The air is solved once; what follows is what a second frame takes.
-    let mut lay = || lay_in(&setting, &layers, &night, &|| Ok(moon_maps.clone()), &mut kept);
+    let data = Maps { catalogs, moon: moon_maps };
+    let mut lay = || lay_in(&setting, &layers, &night, &data, &mut kept);
     let (plan, _) = lay()?;
     println!(
         "  {name:22} {:>14} {:11.1} {:11.1} {:7} {:6}",

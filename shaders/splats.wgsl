@@ -2,6 +2,7 @@
 
 struct Splat {
     @location(0) centre_px: vec2f,
+    // For fragment_of_even_pixels over the solid angle of a pixel.
     @location(1) illuminance: vec4f,
 }
 
@@ -21,6 +22,7 @@ fn vertex(splat: Splat, @builtin(vertex_index) index: u32) -> Corner {
     return Corner(clip_from_pixel(camera, corner), splat.centre_px, splat.illuminance);
 }
 
+// Where pixels of a splat differ in solid angle.
 @fragment
 fn fragment(corner: Corner) -> @location(0) LuminanceXyzv {
     let off = corner.position.xy - corner.centre_px;
@@ -30,4 +32,11 @@ fn fragment(corner: Corner) -> @location(0) LuminanceXyzv {
         return vec4f(0.0);
     }
     return corner.illuminance * (share / solid_angle);
+}
+
+// Where they do not.
+@fragment
+fn fragment_of_even_pixels(corner: Corner) -> @location(0) LuminanceXyzv {
+    let off = corner.position.xy - corner.centre_px;
+    return corner.illuminance * (cubic_b_spline(off.x) * cubic_b_spline(off.y));
 }

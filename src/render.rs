@@ -76,7 +76,7 @@ impl Renderer {
         for disc in &plan.discs {
             self.discs.draw(&mut frame, disc);
         }
-        self.splats.draw(&mut frame, &plan.splats);
+        self.splats.draw(&mut frame, &plan.splats, camera);
         frame.finish()
     }
 

@@ -255,8 +255,11 @@ fn the_table_of_a_picture_is_the_sky_that_is_measured() {
     let night = night(PARANAL, "2026-07-14T04:30Z");
     let mut kept = unkept();
     let plan = whole_sky(&night, None, &mut kept);
+    let low_and_high = [(10.0, 0.1), (100.0, 0.4), (190.0, 1.1), (280.0, 89.2), (10.0, 89.99)];
+    let spread = (0..60).map(|k| (37.0 * f64::from(k), 2.0 + 1.45 * f64::from(k)));
+    let all = low_and_high.into_iter().chain(spread);
     let dirs: Vec<Dir<Apparent>> =
-        (0..60).map(|k| towards(37.0 * f64::from(k), 2.0 + 1.45 * f64::from(k))).collect();
+        all.map(|(azimuth, altitude)| towards(azimuth, altitude)).collect();
     let mut worst: f64 = 0.0;
     for (dir, sky) in dirs.iter().zip(moonless(&night, &with_flux(70.0), &mut kept, &dirs)) {
         let picture = plan.sky.luminance(*dir) + plan.milky_way.as_ref().unwrap().luminance(*dir);

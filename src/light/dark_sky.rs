@@ -43,7 +43,9 @@ use crate::air::refraction::Refraction;
 use crate::air::scattering::above::{
     DiffuseField, DiffuseQuality, DiffuseTables, DiffuseView, SkyHarmonics, glowing_layer,
 };
-use crate::air::scattering::{Matrix, SKY_NODES_NM, ScatteringError, reconstruction_matrix};
+use crate::air::scattering::{
+    Matrix, SKY_NODES_NM, ScatteringError, horizon, reconstruction_matrix,
+};
 use crate::frame::{Apparent, Dir, Galactic, Helioecliptic, Horizon, Rot};
 use crate::units::{Angle, Xyzv};
 
@@ -135,7 +137,7 @@ impl NightAir {
             height_m,
             eye_km: air.eye_km(height_m),
             tables,
-            horizon: sight.horizon(),
+            horizon: horizon(air, height_m, air.eye_km(height_m)),
             sight,
             refraction: air.refraction_at(height_m),
             rows: OnceLock::new(),

@@ -160,11 +160,12 @@ fn lay_stars(
         return ledger.skip_many("stars", SWITCHED_OFF, night.stars.len());
     }
     let camera = plan.camera;
+    let behind = Behind::of(plan);
     let found = night.search_stars(&StarSearch {
         centre: Dir::from_azimuth_altitude(camera.azimuth, camera.altitude),
         radius: camera.reach(SPLAT_REACH_PX),
         limit: layers.magnitude_limit.map(Magnitude),
-        drowned: drowning_magnitude(plan),
+        drowned: behind.drowning_magnitude(),
     });
     for (reason, many) in [
         (TOO_FAINT, found.fainter_than_limit),
@@ -187,7 +188,7 @@ fn lay_stars(
             let pixel = camera.pixel_from_view(view_from_apparent * star.apparent);
             let first = repeats_of(&camera, pixel).next();
             let (Some(pixel), Some(first)) = (pixel, first) else { return Err(OUT_OF_VIEW) };
-            stands_out(star, first, night, so_far)?;
+            stands_out(star, first, night, so_far, &behind)?;
             Ok((pixel, star.ground * twinkle(setting, night, star)))
         })
         .collect();
@@ -220,31 +221,55 @@ fn twinkle(setting: &Setting, night: &Night, object: &LitObject) -> f64 {
     scintillation.factor_of_disc(id, key, altitude, height_m, radius * 2.0)
 }
 
-/// A magnitude beyond which every star drowns in the sky of the picture, wherever it stands: what
-/// the darkest of some pixels lets be seen, and [`DARKER`] less. None where there is no light.
-fn drowning_magnitude(plan: &FramePlan) -> Option<Magnitude> {
-    /// Pixels that are looked at, along each edge of the picture.
-    const ACROSS: u32 = 9;
-    /// How much darker than the darkest of them any other may be.
-    const DARKER: f64 = 4.0;
-    let camera = &plan.camera;
-    let apparent_from_view = camera.view_from_apparent().inverse();
-    let at = |step: u32, edge: u32| f64::from(step) / f64::from(ACROSS - 1) * f64::from(edge);
-    let mut darkest_lx = f64::INFINITY;
-    for step in 0..ACROSS * ACROSS {
-        let (x, y) = (step % ACROSS, step / ACROSS);
-        let pixel = [at(x, camera.width_px), at(y, camera.height_px)];
-        let Some(view) = camera.view_from_pixel(pixel) else { continue };
-        let apparent = apparent_from_view * view;
-        if apparent.altitude() < plan.sky.horizon {
-            continue;
+/// What stands behind stars, from some pixels of the picture.
+struct Behind {
+    /// The least light of a pixel of the sky, lux.
+    darkest_lx: f64,
+    /// The brightest of them, cd/m2.
+    brightest_cd_m2: f64,
+}
+
+impl Behind {
+    const UNKNOWN: Behind = Behind { darkest_lx: 0.0, brightest_cd_m2: f64::INFINITY };
+
+    fn of(plan: &FramePlan) -> Behind {
+        /// Pixels that are looked at, along each edge of the picture.
+        const ACROSS: u32 = 9;
+        let camera = &plan.camera;
+        let apparent_from_view = camera.view_from_apparent().inverse();
+        let at = |step: u32, edge: u32| f64::from(step) / f64::from(ACROSS - 1) * f64::from(edge);
+        let mut behind = Behind { darkest_lx: f64::INFINITY, brightest_cd_m2: 0.0 };
+        for step in 0..ACROSS * ACROSS {
+            let (x, y) = (step % ACROSS, step / ACROSS);
+            let pixel = [at(x, camera.width_px), at(y, camera.height_px)];
+            let Some(view) = camera.view_from_pixel(pixel) else { continue };
+            let apparent = apparent_from_view * view;
+            if apparent.altitude() < plan.sky.horizon {
+                continue;
+            }
+            let cd_m2 = plan.sky.luminance(apparent).y;
+            behind.brightest_cd_m2 = behind.brightest_cd_m2.max(cd_m2);
+            let lx = cd_m2 * camera.pixel_solid_angle_sr(pixel);
+            behind.darkest_lx = behind.darkest_lx.min(lx);
         }
-        let behind_lx = plan.sky.luminance(apparent).y * camera.pixel_solid_angle_sr(pixel);
-        darkest_lx = darkest_lx.min(behind_lx);
+        behind
     }
-    let faintest_lx = DROWNED * darkest_lx / (SPLAT_PEAK * DARKER);
-    let is_lit = faintest_lx > 0.0 && faintest_lx.is_finite();
-    is_lit.then(|| Illuminance::from_lx(faintest_lx).magnitude())
+
+    /// A magnitude beyond which every star drowns, wherever it stands. None where there is no light.
+    fn drowning_magnitude(&self) -> Option<Magnitude> {
+        /// How much darker than the darkest of the pixels any other may be.
+        const DARKER: f64 = 4.0;
+        let faintest_lx = DROWNED * self.darkest_lx / (SPLAT_PEAK * DARKER);
+        let is_lit = faintest_lx > 0.0 && faintest_lx.is_finite();
+        is_lit.then(|| Illuminance::from_lx(faintest_lx).magnitude())
+    }
+
+    /// Whether a point whose brightest pixel has this luminance, cd/m2, stands out wherever it is.
+    fn is_outshone_by(&self, peak_cd_m2: f64) -> bool {
+        /// How much brighter than the brightest of the pixels any other may be.
+        const BRIGHTER: f64 = 1000.0;
+        peak_cd_m2 > DROWNED * BRIGHTER * self.brightest_cd_m2
+    }
 }
 
 fn lay_sky(
@@ -362,7 +387,7 @@ fn visible(
         Kind::Satellite(_) | Kind::Star(_) => repeats_px(camera, object.apparent).next(),
     };
     let Some(pixel) = pixel else { return Err(OUT_OF_VIEW) };
-    stands_out(object, pixel, night, plan)?;
+    stands_out(object, pixel, night, plan, &Behind::UNKNOWN)?;
     match object.kind {
         Kind::Satellite(moon) => match night.sky.satellite(moon) {
             Some(state) if state.share_seen <= 0.0 => Err(BEHIND_JUPITER),
@@ -379,9 +404,10 @@ fn stands_out(
     pixel: [f64; 2],
     night: &Night,
     plan: &FramePlan,
+    behind: &Behind,
 ) -> Result<(), &'static str> {
     let peak = object.ground.y * SPLAT_PEAK / plan.camera.pixel_solid_angle_sr(pixel);
-    if peak < DROWNED * plan.sky.luminance(object.apparent).y {
+    if !behind.is_outshone_by(peak) && peak < DROWNED * plan.sky.luminance(object.apparent).y {
         return Err(OUTSHONE);
     }
     if night.sky.sun.covers(object.dir) || night.sky.moon.state.covers(object.dir) {
