@@ -42,6 +42,14 @@ pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 	cargo run --release --example 6_twilight_sheets docs/twilight
+	$(NOCTURNE) render --lat -24.627 --lon -70.404 --height 2635 --at 2026-07-12T04:30Z --look S --altitude 90 \
+		--fov 180 --projection equidistant --size 800x800 --exposure 1 -o docs/night/paranal.png
+	$(NOCTURNE) render --place Flagstaff --at "2026-10-12 05:00" --look 95 --altitude 25 --fov 100 --exposure 1 \
+		--no-marks -o docs/night/zodiacal_light.png
+	$(NOCTURNE) render --place Flagstaff --at "2026-01-17 22:00" --bortle 8 --look S --altitude 35 \
+		-o docs/night/backyard.png
+	$(NOCTURNE) brightness --place Flagstaff --at "2026-10-12 00:15" --solar-flux 70 --map-size 600 \
+		--map docs/night/gegenschein.png
 	$(NOCTURNE) render --at 2017-06-15T07:30:00Z $(SATURN) -o docs/planets/saturn.png
 	$(NOCTURNE) render --at 2026-01-10T06:30:00Z $(JUPITER) -o docs/planets/jupiter.png
 	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1.5 -o docs/moon/quarter.png

@@ -6,6 +6,7 @@
 
 mod cli {
     pub mod airs;
+    pub mod brightness;
     pub mod catalogs;
     pub mod harness;
     pub mod nonsense;
@@ -26,6 +27,7 @@ fn main() {
     }
     let trials = [
         cli::airs::trials(),
+        cli::brightness::trials(),
         cli::nonsense::trials(),
         cli::outputs::trials(&machine),
         cli::catalogs::trials(&machine),

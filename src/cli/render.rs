@@ -13,6 +13,7 @@ use crate::eye::Eye;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
 use crate::light::night_lights::NightGlow;
+use crate::light::scintillation::Scintillation;
 use crate::plan::classic::ClassicLight;
 use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 
@@ -72,6 +73,9 @@ pub struct RenderArgs {
     /// How the ground of the Moon sends light back [default: hapke]
     #[arg(long, value_enum, value_name = "LAW")]
     moon: Option<MoonArg>,
+    /// Let stars and planets twinkle as for the naked eye; the same seed gives the same twinkling
+    #[arg(long, value_name = "SEED")]
+    scintillation: Option<u64>,
     /// Brighter (positive) or darker PNG, in factors of two [default: 0]
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
     exposure: Option<f64>,
@@ -277,6 +281,10 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
     }
     scene.night = args.glow.change(scene.night)?;
     scene.moon.reflectance = args.moon.map_or(scene.moon.reflectance, MoonArg::law);
+    if let Some(seed) = args.scintillation {
+        let base = scene.scintillation.unwrap_or_default();
+        scene.scintillation = Some(Scintillation { seed, ..base });
+    }
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
     scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);

@@ -322,8 +322,7 @@ impl DarkSky {
     pub fn radiance(&self, dir: Dir<Apparent>) -> Vec<(Component, Spectrum)> {
         let mut sums = Component::ALL.map(|component| (component, Spectrum::DARK));
         let mut add = |component: Component, light: Spectrum| {
-            let sum = &mut sums[component as usize].1;
-            *sum = *sum + light;
+            sums[component as usize].1 += light;
         };
         let altitude = dir.altitude();
         let view = self.air.view(altitude);

@@ -25,23 +25,14 @@
 use std::sync::LazyLock;
 
 use crate::catalog::{Luminosity, Star, spectral_class};
+use crate::light::photometry::Band;
 use crate::light::point_light::PointLight;
-use crate::light::spectrum::{LEN, Spectrum, interpolate, wavelength_nm};
+use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
 use crate::light::star_colour::{B_V_RANGE, black_body};
 use crate::light::sun;
 
 const PICKLES: &str = include_str!("../../catalogs/spectra/pickles.csv");
 
-/// Bessell 1990, from 360 nm by 10 nm.
-const BAND_B: [f64; 21] = [
-    0.000, 0.030, 0.134, 0.567, 0.920, 0.978, 1.000, 0.978, 0.935, 0.853, 0.740, 0.640, 0.536,
-    0.424, 0.325, 0.235, 0.150, 0.095, 0.043, 0.009, 0.000,
-];
-/// Bessell 1990, from 470 nm by 10 nm.
-const BAND_V: [f64; 24] = [
-    0.000, 0.030, 0.163, 0.458, 0.780, 0.967, 1.000, 0.973, 0.898, 0.792, 0.684, 0.574, 0.461,
-    0.359, 0.270, 0.197, 0.135, 0.081, 0.045, 0.025, 0.017, 0.013, 0.009, 0.000,
-];
 /// Of the Sun.
 const SUN_B_V: f64 = 0.653;
 
@@ -124,20 +115,8 @@ pub fn b_v(spectrum: &Spectrum) -> f64 {
 static ZERO: LazyLock<f64> = LazyLock::new(|| raw_b_v(&sun::irradiance_1au()) - SUN_B_V);
 
 fn raw_b_v(spectrum: &Spectrum) -> f64 {
-    let [b, v] = std::array::from_fn(|band| {
-        spectrum.values().iter().zip(&*BANDS).map(|(value, bands)| value * bands[band]).sum::<f64>()
-    });
-    -2.5 * (b / v).log10()
+    -2.5 * (Band::B.mean(spectrum) / Band::V.mean(spectrum)).log10()
 }
-
-/// B and V at the nodes of the grid.
-static BANDS: LazyLock<[[f64; 2]; LEN]> = LazyLock::new(|| {
-    let table = |first_nm: f64, band: &[f64]| -> Vec<(f64, f64)> {
-        band.iter().enumerate().map(|(k, value)| (first_nm + 10.0 * k as f64, *value)).collect()
-    };
-    let (b, v) = (table(360.0, &BAND_B), table(470.0, &BAND_V));
-    std::array::from_fn(|node| [&b, &v].map(|band| interpolate(band, wavelength_nm(node))))
-});
 
 /// The share of light that passes dust of E(B-V), mag; more than 1 where E(B-V) is below zero.
 fn dust(nm: f64, reddening: f64) -> f64 {

@@ -3,11 +3,13 @@
 //! The same lights as in a picture, each with its whole spectrum: sunlight and moonlight that the air
 //! scatters ([`super::skylight`]), and the dark sky ([`crate::light::dark_sky`]). What is drawn one by
 //! one is not in it: the discs of Sun, Moon and planets, and the stars of the catalogue. An instrument
-//! with a wide field sees those stars too: [`SkyBrightness::meter`].
+//! with a wide field sees those stars too: [`SkyBrightness::meter`]. In totality sunlight has the luminance
+//! of a picture and the colour of the Sun.
 
 use rayon::prelude::*;
 
 use crate::air::scattering::SKY_NODES_NM;
+use crate::ephemeris::Body;
 use crate::eye::limiting_magnitude;
 use crate::frame::{Apparent, Dir};
 use crate::light::dark_sky::{Component, DarkSky, NightLights, at_nodes};
@@ -19,12 +21,12 @@ use crate::scene::Layers;
 use crate::sky::BodyState;
 use crate::units::{Angle, Magnitude, Xyzv};
 
-use super::PlanError;
 use super::dark_sky;
 use super::data::SkyData;
 use super::lay::Kept;
 use super::ledger::Ledger;
 use super::skylight::{self, Shines};
+use super::{PlanError, SkyPlan};
 
 /// What lights the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,6 +90,8 @@ impl SkyBrightness {
 pub struct MeasuredSky<'n> {
     night: &'n Night,
     lit: Vec<(Source, &'n BodyState, Spectrum)>,
+    /// What the Sun lights from outside the shadow of the Moon.
+    totality: Option<SkyPlan>,
     dark: Option<DarkSky>,
     /// The same with all stars of the catalogue as an even glow.
     with_stars: Option<DarkSky>,
@@ -114,6 +118,11 @@ impl<'n> MeasuredSky<'n> {
         if !lit.is_empty() {
             kept.air.of(&night.air, night.sky.place.height_m)?;
         }
+        let is_shadowed = layers.skylight && skylight::in_shadow_of_moon(night).is_some();
+        let totality = match is_shadowed {
+            true => Some(skylight::sky_plan(night, true, false, &mut kept.air)?.0),
+            false => None,
+        };
         let mut ledger = Ledger::default();
         let lights = dark_sky::lights(glow, layers, night, data, &mut kept.dark_sky, &mut ledger)?;
         let (mut dark, mut with_stars) = (None, None);
@@ -123,7 +132,7 @@ impl<'n> MeasuredSky<'n> {
             with_stars = Some(DarkSky::new(&air, stars));
             dark = Some(DarkSky::new(&air, lights));
         }
-        Ok(MeasuredSky { night, lit, dark, with_stars })
+        Ok(MeasuredSky { night, lit, totality, dark, with_stars })
     }
 
     /// How bright it is in an apparent direction; below the horizon the ground.
@@ -136,6 +145,10 @@ impl<'n> MeasuredSky<'n> {
             let tables = air.tables();
             let eye_km = self.night.air.eye_km(height_m);
             let scattered = |state: &BodyState, irradiance: &Spectrum, dir: Dir<Apparent>| {
+                if let (Body::Sun, Some(sky)) = (state.body, &self.totality) {
+                    let whole = self.night.irradiance_without_eclipse(state);
+                    return whole.scaled_to_photopic(sky.luminance(dir).y);
+                }
                 let mut nodes = [0.0; SKY_NODES_NM.len()];
                 let from_source = dir.azimuth() - state.dir.azimuth();
                 let cos_zenith = state.dir.altitude().sin();
@@ -145,16 +158,15 @@ impl<'n> MeasuredSky<'n> {
             for (source, state, irradiance) in &self.lit {
                 let light = scattered(state, irradiance, dir);
                 sources.iter_mut().filter(|(s, _)| s == source).for_each(|(_, sum)| *sum = light);
-                meter = meter + mean_in_meter(dir, |dir| scattered(state, irradiance, dir));
+                meter += mean_in_meter(dir, |dir| scattered(state, irradiance, dir));
             }
         }
         if let (Some(dark), Some(with_stars)) = (&self.dark, &self.with_stars) {
             let lights = dark.radiance(dir).into_iter();
             sources.extend(lights.map(|(component, light)| (Source::Dark(component), light)));
-            meter = meter
-                + mean_in_meter(dir, |dir| {
-                    with_stars.radiance(dir).into_iter().map(|(_, light)| light).sum()
-                });
+            meter += mean_in_meter(dir, |dir| {
+                with_stars.radiance(dir).into_iter().map(|(_, light)| light).sum()
+            });
         } else {
             let dark = Component::ALL.map(|component| (Source::Dark(component), Spectrum::DARK));
             sources.extend(dark);

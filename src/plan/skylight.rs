@@ -46,6 +46,11 @@ pub fn sun_shines(night: &Night) -> Shines {
     }
 }
 
+/// The Sun, if so much of it is covered that each part of the air has its own light.
+pub fn in_shadow_of_moon(night: &Night) -> Option<CoveredSun> {
+    night.eclipse.sun.filter(|sun| sun.visible().at_nm(550.0) < SHADOWED[0])
+}
+
 /// Whether moonlight is scattered into this sky.
 pub fn moon_shines(night: &Night) -> Shines {
     if night.sky.moon.state.dir.altitude() < MOON_SKY_FLOOR {
@@ -225,8 +230,7 @@ pub fn sky_plan(
             *lit = Some(air.sky(state.dir, &night.irradiance(state)));
         }
     }
-    let deep = night.eclipse.sun.filter(|sun| sun.visible().at_nm(550.0) < SHADOWED[0]);
-    if let (true, Some(covered)) = (with_sun, deep) {
+    if let (true, Some(covered)) = (with_sun, in_shadow_of_moon(night)) {
         let (air, _) = kept.of(&night.air, height_m)?;
         let whole = night.irradiance_without_eclipse(&night.sky.sun);
         if let Some([clockwise, other]) = air.eclipsed_sky(night, &covered, &whole) {
