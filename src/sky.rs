@@ -90,7 +90,8 @@ pub struct MoonState {
 impl BodyState {
     /// Whether the disc of the body covers a direction.
     pub fn covers(&self, dir: Dir<Horizon>) -> bool {
-        self.dir.separation(dir) < self.angular_radius
+        // Most are far away, which a product tells sooner than an angle.
+        self.dir.dot(dir) > 0.5 && self.dir.separation(dir) < self.angular_radius
     }
 }
 

@@ -11,9 +11,13 @@ use nocturne::ephemeris::Ephemeris;
 use nocturne::frame::Dir;
 use nocturne::light::moon_shadow::MoonShadow;
 use nocturne::light::night::Night;
+use nocturne::light::night_lights::NightGlow;
 use nocturne::place::Place;
 use nocturne::plan::SkyPlan;
+use nocturne::plan::brightness::{MeasuredSky, Source};
+use nocturne::plan::lay::Kept;
 use nocturne::plan::skylight::{KeptAir, SolvedAir, sky_plan};
+use nocturne::scene::Layers;
 use nocturne::sky::SkyState;
 use nocturne::store::Store;
 use nocturne::time::{self, Instant};
@@ -166,18 +170,25 @@ fn totality_is_as_dark_as_measured() {
 #[test]
 fn the_sky_of_the_eclipsed_moon_is_that_of_a_moonless_night() {
     let flagstaff = (35.2, -111.65, 2106.0);
-    let zenith = |utc: &str, with_moon: bool| {
+    let catalogs = Catalogs::locate(None).unwrap();
+    // With the Moon, and the dark sky alone.
+    let seen = |utc: &str| {
         let night = night(utc, flagstaff);
         assert!(night.sky.sun.dir.altitude().deg() < -18.0);
         assert!(night.sky.moon.state.dir.altitude().deg() > 15.0);
-        let mut kept = KeptAir::new(Store::NONE);
-        let plan = sky_plan(&night, false, with_moon, &mut kept).expect("solved").0;
-        [(0.0, 90.0), (0.0, 40.0), (180.0, 40.0)].map(|(az, alt)| luminance(&plan, az, alt))
+        let mut kept = Kept::new(Store::NONE);
+        let (glow, layers) = (NightGlow::default(), Layers::default());
+        let sky = MeasuredSky::of(&night, &glow, &layers, &catalogs, &mut kept).unwrap();
+        [(0.0, 90.0), (0.0, 40.0), (180.0, 40.0)].map(|(azimuth, altitude)| {
+            let dir =
+                Dir::from_azimuth_altitude(Angle::from_deg(azimuth), Angle::from_deg(altitude));
+            let seen = sky.at(dir, &mut kept).unwrap();
+            let dark = seen.sources.iter().filter(|(source, _)| matches!(source, Source::Dark(_)));
+            [seen.luminance().y, dark.map(|(_, light)| light.xyzv().y).sum()]
+        })
     };
     let [before, dark] = ["2026-03-03T07:44:00Z", "2026-03-03T11:33:40Z"];
-    for ((full, eclipsed), moonless) in
-        zenith(before, true).into_iter().zip(zenith(dark, true)).zip(zenith(dark, false))
-    {
+    for ([full, _], [eclipsed, moonless]) in seen(before).into_iter().zip(seen(dark)) {
         println!("cd/m2: full {full:.2e}, eclipsed {eclipsed:.3e}, moonless {moonless:.3e}");
         assert!(eclipsed > moonless && eclipsed < 1.03 * moonless);
         // By some 3 magnitudes per square second of arc.

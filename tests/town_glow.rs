@@ -155,8 +155,8 @@ fn towns_fade_with_distance_and_nothing_is_not_a_number() {
         // The quick way is the spectrum's.
         for (i, light) in grid.iter().enumerate() {
             let slow = glow.radiance(altitudes[i / 4], azimuths[i % 4]).xyzv();
-            assert!((slow.y - light.y).abs() <= 0.01 * light.y + 1e-12, "{slow:?} {light:?}");
-            assert!((slow.v - light.v).abs() <= 0.01 * light.v + 1e-12, "{slow:?} {light:?}");
+            assert!((slow.y - light.y).abs() <= 0.02 * light.y + 1e-12, "{slow:?} {light:?}");
+            assert!((slow.v - light.v).abs() <= 0.02 * light.v + 1e-12, "{slow:?} {light:?}");
         }
     }
     // At 240 km a hundred thousand people are nothing beside the stars, 1e-3 lux in all.

@@ -32,8 +32,8 @@ pub struct KeptDarkSky {
     air: Option<NightAir>,
     town_shapes: Option<(Atmosphere, f64, GlowTables)>,
     starlight: Option<Starlight>,
-    /// All stars of a catalogue.
-    catalogue: Option<(StarIndex, Arc<StarGlow>)>,
+    /// Stars of a catalogue that are fainter than a magnitude.
+    glows: Vec<(StarIndex, f64, Arc<StarGlow>)>,
 }
 
 impl KeptDarkSky {
@@ -65,14 +65,20 @@ impl KeptDarkSky {
         Ok(self.starlight.clone())
     }
 
-    fn catalogue(&mut self, stars: &StarIndex) -> Arc<StarGlow> {
-        if let Some((known, glow)) = &self.catalogue
-            && known.is_same(stars)
-        {
+    /// The stars of a catalogue that are fainter than a magnitude, as a glow.
+    fn glow(&mut self, stars: &StarIndex, fainter_than: f64) -> Arc<StarGlow> {
+        /// All of a catalogue, and those beyond two limits.
+        const MOST: usize = 3;
+        let is_it = |(known, limit, _): &&(StarIndex, f64, Arc<StarGlow>)| {
+            known.is_same(stars) && *limit == fainter_than
+        };
+        if let Some((.., glow)) = self.glows.iter().find(is_it) {
             return glow.clone();
         }
-        let glow = Arc::new(glow_of(stars, f64::NEG_INFINITY));
-        self.catalogue.insert((stars.clone(), glow)).1.clone()
+        let glow = Arc::new(glow_of(stars, fainter_than));
+        self.glows.truncate(MOST - 1);
+        self.glows.insert(0, (stars.clone(), fainter_than, glow.clone()));
+        glow
     }
 }
 
@@ -115,9 +121,9 @@ pub fn lights(
     if shines("Milky Way", layers.milky_way) {
         let axes = galactic_from_icrs() * night.sky.horizon_from_icrs.inverse();
         lights.starlight = kept.starlight(data)?.map(|starlight| (starlight, axes));
-        lights.catalogue = Some(kept.catalogue(&night.stars));
+        lights.catalogue = Some(kept.glow(&night.stars, f64::NEG_INFINITY));
         let limit = layers.magnitude_limit.filter(|_| layers.stars);
-        lights.undrawn = limit.map(|limit| Arc::new(glow_of(&night.stars, limit)));
+        lights.undrawn = limit.map(|limit| kept.glow(&night.stars, limit));
     }
     let towns = match glow.towns {
         true => TownLight::Towns(data.towns_around(&night.sky.place)?),
