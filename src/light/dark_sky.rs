@@ -35,7 +35,7 @@ use serde::{Deserialize, Serialize};
 use super::airglow::GlowLayer;
 use super::spectrum::{LEN, Spectrum, Transmittance, wavelength_nm};
 use super::starlight::{self, StarGlow, Starlight};
-use super::town_glow::{GlowTables, TownGlow};
+use super::town_glow::TownGlow;
 use super::zodiacal;
 use crate::air::Atmosphere;
 use crate::air::extinction::SightLines;
@@ -580,11 +580,4 @@ fn weights(spectrum: &Spectrum, mean: &[f64]) -> Vec<Xyzv> {
         light.by_node(|node| SPECTRUM_FROM_NODES.row(node)[solved] / mean).xyzv()
     };
     mean.iter().enumerate().map(weight).collect()
-}
-
-impl NightAir {
-    /// The shapes of the glow of towns in this air. Takes some 100 ms.
-    pub fn town_shapes(&self) -> Result<GlowTables, ScatteringError> {
-        GlowTables::solve(&self.inner.air, self.inner.height_m)
-    }
 }

@@ -6,10 +6,12 @@ use crate::air::Atmosphere;
 use crate::air::scattering::ScatteringError;
 use crate::frame::galactic_from_icrs;
 use crate::light::dark_sky::{DarkSky, NightAir, NightLights};
+use crate::light::lamps::Lamps;
 use crate::light::night::Night;
 use crate::light::night_lights::{NightGlow, helioecliptic_from_horizon};
 use crate::light::starlight::{StarGlow, Starlight};
-use crate::light::town_glow::{GlowTables, TownGlow, TownLight};
+use crate::light::town_glow::{GlowTables, Town, TownGlow, TownLight};
+use crate::place::Place;
 use crate::scene::Layers;
 use crate::sky::star_index::StarIndex;
 use crate::units::{Angle, Xyzv};
@@ -30,7 +32,9 @@ const NO_TOWNS: &str = "none is asked for";
 #[derive(Default)]
 pub struct KeptDarkSky {
     air: Option<NightAir>,
+    towns: Option<(Place, Vec<Town>)>,
     town_shapes: Option<(Atmosphere, f64, GlowTables)>,
+    town_glow: Option<(TownLight, Lamps, TownGlow)>,
     starlight: Option<Starlight>,
     /// Stars of a catalogue that are fainter than a magnitude.
     glows: Vec<(StarIndex, f64, Arc<StarGlow>)>,
@@ -46,16 +50,49 @@ impl KeptDarkSky {
         Ok(self.air.insert(NightAir::solve(&night.air, height_m)?).clone())
     }
 
-    fn town_shapes(&mut self, night: &Night) -> Result<GlowTables, ScatteringError> {
-        let height_m = night.sky.place.height_m;
-        if let Some((air, height, shapes)) = &self.town_shapes
-            && *air == night.air
-            && *height == height_m
-        {
-            return Ok(shapes.clone());
+    /// Where town glow is from: the towns of the gazetteer are looked up once for a place.
+    fn town_light(
+        &mut self,
+        glow: &NightGlow,
+        place: &Place,
+        data: &dyn SkyData,
+    ) -> Result<TownLight, PlanError> {
+        if !glow.towns {
+            return Ok(glow.town_light_all_round());
         }
-        let shapes = GlowTables::solve(&night.air, height_m)?;
-        Ok(self.town_shapes.insert((night.air.clone(), height_m, shapes)).2.clone())
+        if let Some((known, towns)) = &self.towns
+            && known == place
+        {
+            return Ok(TownLight::Towns(towns.clone()));
+        }
+        let towns = data.towns_around(place)?;
+        self.towns = Some((place.clone(), towns.clone()));
+        Ok(TownLight::Towns(towns))
+    }
+
+    /// The glow of towns, the same as before where nothing has changed.
+    fn town_glow(
+        &mut self,
+        light: &TownLight,
+        lamps: Lamps,
+        night: &Night,
+    ) -> Result<TownGlow, ScatteringError> {
+        let height_m = night.sky.place.height_m;
+        let of_air = self.town_shapes.take_if(|(air, height, _)| {
+            *air == night.air && height.to_bits() == height_m.to_bits()
+        });
+        let (air, height_m, shapes) = match of_air {
+            Some(of_air) => of_air,
+            None => {
+                self.town_glow = None;
+                (night.air.clone(), height_m, GlowTables::solve(&night.air, height_m)?)
+            }
+        };
+        let known = self.town_glow.take_if(|(known, of, _)| known == light && *of == lamps);
+        let known =
+            known.unwrap_or_else(|| (light.clone(), lamps, TownGlow::new(light, lamps, &shapes)));
+        self.town_shapes = Some((air, height_m, shapes));
+        Ok(self.town_glow.insert(known).2.clone())
     }
 
     fn starlight(&mut self, data: &dyn SkyData) -> Result<Option<Starlight>, PlanError> {
@@ -125,14 +162,12 @@ pub fn lights(
         let limit = layers.magnitude_limit.filter(|_| layers.stars);
         lights.undrawn = limit.map(|limit| kept.glow(&night.stars, limit));
     }
-    let towns = match glow.towns {
-        true => TownLight::Towns(data.towns_around(&night.sky.place)?),
-        false => glow.town_light_all_round(),
-    };
-    if towns == TownLight::None {
+    let is_lit = glow.towns || glow.town_light_all_round() != TownLight::None;
+    if !is_lit {
         ledger.skip("town glow", if layers.town_glow { NO_TOWNS } else { SWITCHED_OFF });
     } else if shines("town glow", layers.town_glow) {
-        lights.towns = Some(TownGlow::new(&towns, glow.lamps, &kept.town_shapes(night)?));
+        let towns = kept.town_light(glow, &night.sky.place, data)?;
+        lights.towns = Some(kept.town_glow(&towns, glow.lamps, night)?);
     }
     Ok(lights)
 }
