@@ -187,6 +187,15 @@ impl<F: Local> Dir<F> {
     pub fn azimuth(self) -> Angle {
         Angle::from_rad(self.0.x.atan2(self.0.y)).positive()
     }
+    /// The direction of the same azimuth at another altitude, in this local frame or the other; straight
+    /// up, where there is no azimuth, north.
+    pub fn raised_to<G: Local>(self, altitude: Angle) -> Dir<G> {
+        let (sin_alt, cos_alt) = altitude.sin_cos();
+        let across = self.0.x.hypot(self.0.y);
+        let (east, north) =
+            if across > 0.0 { (self.0.x / across, self.0.y / across) } else { (0.0, 1.0) };
+        Dir(DVec3::new(cos_alt * east, cos_alt * north, sin_alt), PhantomData)
+    }
     /// Altitude above the horizontal plane.
     pub fn altitude(self) -> Angle {
         self.latitude()

@@ -122,11 +122,11 @@ impl Refraction {
 
     /// Where the light of a direction is seen to come from.
     pub fn apparent_from_horizon(&self, dir: Dir<Horizon>) -> Dir<Apparent> {
-        Dir::from_azimuth_altitude(dir.azimuth(), self.apparent_from_true(dir.altitude()))
+        dir.raised_to(self.apparent_from_true(dir.altitude()))
     }
 
     /// Where that stands whose light is seen to come from a direction.
     pub fn horizon_from_apparent(&self, dir: Dir<Apparent>) -> Dir<Horizon> {
-        Dir::from_azimuth_altitude(dir.azimuth(), self.true_from_apparent(dir.altitude()))
+        dir.raised_to(self.true_from_apparent(dir.altitude()))
     }
 }

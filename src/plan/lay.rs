@@ -192,16 +192,19 @@ fn lay_stars(
             Ok((pixel, star.ground * twinkle(setting, night, star)))
         })
         .collect();
+    let mut drawn = 0;
+    plan.splats.reserve(seen.len());
     for star in seen {
         match star {
             Ok((pixel, illuminance)) => {
                 let repeats = repeats_of(&camera, Some(pixel));
                 plan.splats.extend(repeats.map(|centre_px| Splat { centre_px, illuminance }));
-                ledger.draw("stars");
+                drawn += 1;
             }
             Err(reason) => ledger.skip("stars", reason),
         }
     }
+    ledger.draw_many("stars", drawn);
 }
 
 /// What the turbulence of the air makes of the light of a point; 1 if nobody asked for it.

@@ -20,7 +20,12 @@ pub struct Ledger {
 impl Ledger {
     /// Notes that something of a layer is drawn.
     pub fn draw(&mut self, layer: &'static str) {
-        self.entry(layer).drawn += 1;
+        self.draw_many(layer, 1);
+    }
+
+    /// The same for many things at once.
+    pub fn draw_many(&mut self, layer: &'static str, many: usize) {
+        self.entry(layer).drawn += many;
     }
 
     /// Notes how something of a layer is drawn.
