@@ -360,6 +360,20 @@ mod tests {
     }
 
     #[test]
+    fn what_is_raised_keeps_its_azimuth() {
+        for (azimuth, altitude) in [(10.0, 3.0), (200.0, -40.0), (359.9, 89.999)] {
+            let [azimuth, altitude, other] = [azimuth, altitude, 12.5].map(Angle::from_deg);
+            let dir: Dir<Horizon> = Dir::from_azimuth_altitude(azimuth, altitude);
+            let raised: Dir<Apparent> = dir.raised_to(other);
+            assert!((raised.azimuth() - azimuth).signed().abs().rad() < 1e-11);
+            assert!((raised.altitude() - other).abs().rad() < 1e-15);
+            assert!(raised.raised_to::<Horizon>(altitude).separation(dir).rad() < 1e-15);
+        }
+        let up: Dir<Horizon> = Dir::from_vector(DVec3::Z);
+        assert_eq!(up.raised_to::<Apparent>(Angle::ZERO).azimuth(), Angle::ZERO);
+    }
+
+    #[test]
     fn separation_keeps_its_digits_when_small() {
         let a: Dir<Icrs> = Dir::from_spherical(Angle::ZERO, Angle::ZERO);
         let b: Dir<Icrs> = Dir::from_spherical(Angle::from_arcsec(1e-4), Angle::ZERO);
