@@ -288,6 +288,19 @@ impl DarkSky {
         DarkSky { air: air.clone(), lights, scattered }
     }
 
+    /// The same sky with other stars of the catalogue that are not drawn one by one; what is scattered
+    /// does not change.
+    pub fn with_undrawn(&self, undrawn: Option<Arc<StarGlow>>) -> DarkSky {
+        let mut sky = self.clone();
+        sky.lights.undrawn = undrawn;
+        sky
+    }
+
+    /// All stars of the catalogue, if they shine.
+    pub fn catalogue(&self) -> Option<Arc<StarGlow>> {
+        self.lights.catalogue.clone()
+    }
+
     /// What comes straight from outside in a direction, without the air; airglow as seen from the
     /// height of the eye.
     fn outside(&self, dir: Dir<Horizon>) -> impl Iterator<Item = (Component, Spectrum)> {
@@ -349,9 +362,7 @@ impl DarkSky {
             return towns.radiance(dir.altitude(), dir.azimuth());
         }
         let on_ground = towns.radiance(Angle::from_deg(90.0), Angle::ZERO);
-        let albedo = self.air.inner.air.ground.albedo;
-        let level = towns.ground_illuminance().y * albedo / std::f64::consts::PI;
-        on_ground.scaled_to_photopic(level)
+        on_ground.scaled_to_photopic(self.town_ground().y)
     }
 
     /// What arrives of starlight of 1 S10(V) at an apparent altitude, of the bluest and of the reddest
@@ -376,6 +387,7 @@ impl DarkSky {
     /// and from the dust that they light, whose detail is finer.
     pub fn luminances(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Vec<Xyzv> {
         let towns = self.lights.towns.as_ref().map(|towns| towns.luminances(altitudes, azimuths));
+        let town_ground = self.town_ground();
         let turns: Vec<Turn> = azimuths.iter().map(|azimuth| turn(*azimuth)).collect();
         let of_row = |(row, at): (usize, &Row)| {
             let around = self.scattered_around(&at.view);
@@ -389,7 +401,7 @@ impl DarkSky {
                 if let Some(towns) = &towns {
                     light += match straight {
                         Some(_) => towns[row * azimuths.len() + column],
-                        None => self.town_ground(),
+                        None => town_ground,
                     };
                 }
                 lights.push(light);
@@ -401,6 +413,7 @@ impl DarkSky {
         rows.concat()
     }
 
+    /// Luminance of the ground in the light of towns, cd/m2.
     fn town_ground(&self) -> Xyzv {
         let albedo = self.air.inner.air.ground.albedo;
         let on_ground = self.lights.towns.as_ref().map(TownGlow::ground_illuminance);
@@ -440,25 +453,6 @@ impl DarkSky {
         let star = (star_spectrum(MIDDLE_COLOUR) * passed).xyzv();
         let dust = one_s10(passed).dust;
         Straight { even, zodiacal: [reddest, least], star, dust }
-    }
-
-    /// Spectral irradiance of level ground by each light, W m-2 nm-1, towns in [`TownGlow`] alone.
-    pub fn ground_irradiance(&self) -> Vec<(Component, Spectrum)> {
-        let of = |light: &Scattered| {
-            let factors = light.field.ground_irradiance();
-            let spectra = light.spectra.iter();
-            spectra
-                .map(move |(component, spectrum)| (*component, at_nodes(spectrum, &factors)))
-                .collect::<Vec<_>>()
-        };
-        self.scattered.iter().flat_map(of).collect()
-    }
-
-    /// Illuminance of level ground, lux.
-    pub fn ground_illuminance(&self) -> Xyzv {
-        let natural: Xyzv = self.ground_irradiance().iter().map(|(_, light)| light.xyzv()).sum();
-        let towns = self.lights.towns.as_ref().map(TownGlow::ground_illuminance);
-        natural + towns.unwrap_or(Xyzv::BLACK)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::air::scattering::SKY_NODES_NM;
 use crate::ephemeris::Body;
 use crate::eye::limiting_magnitude;
 use crate::frame::{Apparent, Dir};
-use crate::light::dark_sky::{Component, DarkSky, NightLights, at_nodes};
+use crate::light::dark_sky::{Component, DarkSky, at_nodes};
 use crate::light::night::Night;
 use crate::light::night_lights::NightGlow;
 use crate::light::photometry::{self, Band};
@@ -125,13 +125,11 @@ impl<'n> MeasuredSky<'n> {
         };
         let mut ledger = Ledger::default();
         let lights = dark_sky::lights(glow, layers, night, data, &mut kept.dark_sky, &mut ledger)?;
-        let (mut dark, mut with_stars) = (None, None);
-        if !lights.are_out() {
-            let air = kept.dark_sky.air(night)?;
-            let stars = NightLights { undrawn: lights.catalogue.clone(), ..lights.clone() };
-            with_stars = Some(DarkSky::new(&air, stars));
-            dark = Some(DarkSky::new(&air, lights));
-        }
+        let dark = match lights.are_out() {
+            true => None,
+            false => Some(DarkSky::new(&kept.dark_sky.air(night)?, lights)),
+        };
+        let with_stars = dark.as_ref().map(|dark| dark.with_undrawn(dark.catalogue()));
         Ok(MeasuredSky { night, lit, totality, dark, with_stars })
     }
 

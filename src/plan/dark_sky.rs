@@ -27,6 +27,7 @@ pub const DARK_SKY_SUN_LIMIT: Angle = Angle::from_deg(-3.0);
 
 const OUTSHONE: &str = "the Sun outshines it ten thousandfold";
 const NO_TOWNS: &str = "none is asked for";
+const NO_MAP: &str = "there is no map of it at hand";
 
 /// What frames in a row share of the dark sky.
 #[derive(Default)]
@@ -136,36 +137,40 @@ pub fn lights(
     ledger: &mut Ledger,
 ) -> Result<NightLights, PlanError> {
     let outshone = night.sky.sun.dir.altitude() > DARK_SKY_SUN_LIMIT;
-    let mut shines = |layer: &'static str, wanted: bool| {
-        let why_not = match (layers.skylight && wanted, outshone) {
-            (false, _) => SWITCHED_OFF,
-            (true, true) => OUTSHONE,
-            (true, false) => {
-                ledger.draw(layer);
-                return true;
-            }
-        };
-        ledger.skip(layer, why_not);
-        false
+    let why_not = |wanted: bool| match (layers.skylight && wanted, outshone) {
+        (false, _) => Some(SWITCHED_OFF),
+        (true, true) => Some(OUTSHONE),
+        (true, false) => None,
+    };
+    let mut note = |layer: &'static str, why_not: Option<&'static str>| {
+        match why_not {
+            Some(reason) => ledger.skip(layer, reason),
+            None => ledger.draw(layer),
+        }
+        why_not.is_none()
     };
     let mut lights = NightLights::default();
-    if shines("airglow", layers.airglow) {
+    if note("airglow", why_not(layers.airglow)) {
         lights.airglow = glow.airglow(&night.sky);
     }
-    if shines("zodiacal light", layers.zodiacal_light) {
+    if note("zodiacal light", why_not(layers.zodiacal_light)) {
         lights.helioecliptic_from_horizon = Some(helioecliptic_from_horizon(&night.sky));
     }
-    if shines("Milky Way", layers.milky_way) {
+    let starlight = match why_not(layers.milky_way) {
+        Some(reason) => Err(reason),
+        None => kept.starlight(data)?.ok_or(NO_MAP),
+    };
+    note("Milky Way", starlight.as_ref().err().copied());
+    if let Ok(starlight) = starlight {
         let axes = galactic_from_icrs() * night.sky.horizon_from_icrs.inverse();
-        lights.starlight = kept.starlight(data)?.map(|starlight| (starlight, axes));
+        lights.starlight = Some((starlight, axes));
         lights.catalogue = Some(kept.glow(&night.stars, f64::NEG_INFINITY));
         let limit = layers.magnitude_limit.filter(|_| layers.stars);
         lights.undrawn = limit.map(|limit| kept.glow(&night.stars, limit));
     }
-    let is_lit = glow.towns || glow.town_light_all_round() != TownLight::None;
-    if !is_lit {
-        ledger.skip("town glow", if layers.town_glow { NO_TOWNS } else { SWITCHED_OFF });
-    } else if shines("town glow", layers.town_glow) {
+    let is_asked_for = glow.towns || glow.town_light_all_round() != TownLight::None;
+    let no_towns = (layers.town_glow && !is_asked_for).then_some(NO_TOWNS);
+    if note("town glow", no_towns.or(why_not(layers.town_glow))) {
         let towns = kept.town_light(glow, &night.sky.place, data)?;
         lights.towns = Some(kept.town_glow(&towns, glow.lamps, night)?);
     }
