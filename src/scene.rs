@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::air::classic::{ClassicSky, ClassicSkyError};
 use crate::air::{AirError, Atmosphere};
 use crate::camera::{Camera, CameraError, Projection};
+use crate::display::{Display, DisplayError};
 use crate::eye::Eye;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
@@ -49,6 +50,8 @@ pub enum SceneError {
     #[error(transparent)]
     Night(#[from] NightGlowError),
     #[error(transparent)]
+    Display(#[from] DisplayError),
+    #[error(transparent)]
     Scintillation(#[from] ScintillationError),
 }
 
@@ -82,6 +85,9 @@ pub struct Scene {
     pub air: Atmosphere,
     #[serde(default)]
     pub eye: Eye,
+    /// The screen that the picture is for.
+    #[serde(default)]
+    pub display: Display,
     #[serde(default)]
     pub marks: Marks,
 }
@@ -251,6 +257,7 @@ impl Scene {
         self.air.validate_at(at.height_m)?;
         self.sky.as_ref().map_or(Ok(()), ClassicSky::validate)?;
         self.night.validate()?;
+        self.display.validate()?;
         self.check_numbers()?;
         let tolerance = match self.tolerance_arcsec {
             Some(arcsec) => Angle::from_arcsec(arcsec),
@@ -275,9 +282,9 @@ impl Scene {
         let checks = [
             ("tolerance_arcsec", self.tolerance_arcsec, 0.0, 360_000.0),
             ("layers.magnitude_limit", self.layers.magnitude_limit, -30.0, 100.0),
-            ("eye.display_peak_cd_m2", Some(eye.display_peak_cd_m2), 1.0, 10_000.0),
             ("eye.exposure_stops", Some(eye.exposure_stops), -40.0, 40.0),
             ("eye.adaptation_cd_m2", eye.adaptation_cd_m2, 1e-7, 1e10),
+            ("eye.field_factor", Some(eye.field_factor), 1.0, 10.0),
         ];
         for (what, value, low, high) in checks {
             if let Some(value) = value.filter(|value| !(low..=high).contains(value)) {
@@ -321,6 +328,7 @@ mod tests {
             moon: SceneMoon::default(),
             air: Atmosphere::default(),
             eye: Eye::default(),
+            display: Display::default(),
             marks: Marks::default(),
         }
     }

@@ -6,12 +6,11 @@ use crate::plan::ledger::Ledger;
 use crate::scene::{Scene, Setting};
 
 use super::error::CliError;
-use super::outputs::Picture;
 use super::progress::Progress;
 
 /// A picture, and what it cost.
 pub struct Drawn {
-    pub picture: Picture,
+    pub picture: super::outputs::Picture,
     pub ledger: Ledger,
     /// The graphics adapter.
     pub adapter: String,
@@ -33,6 +32,7 @@ pub fn draw(
     use crate::overlay;
     use crate::plan::lay::{Kept, lay_in};
     use crate::render::Renderer;
+    use crate::render::picture::{Depth, Picture};
     use crate::store::Store;
 
     // Whether anything can be drawn is known soon, so ask before the long work.
@@ -42,17 +42,15 @@ pub fn draw(
         .step("light and air", || lay_in(setting, &scene.layers, night, catalogs, &mut kept))?;
     let rendered = progress.step("drawing", || renderer.frame(&plan))?;
     let frame = rendered.frame;
-    let seen = progress.step("seeing", || {
-        let mut seen = scene.eye.see(&frame, setting.camera.pixel_angle());
-        overlay::draw(scene.marks, &mut seen.picture, &setting.camera, night.horizon);
-        seen
-    });
+    let looked = renderer.seen(&plan, &scene.eye, &scene.display, Depth::Codes)?;
+    let Picture::Codes(mut seen) = looked.picture else { unreachable!() };
+    overlay::draw(scene.marks, &mut seen, &setting.camera, night.horizon);
     Ok(Drawn {
-        picture: Picture { frame, seen: seen.picture },
+        picture: super::outputs::Picture { frame, seen },
         ledger,
         adapter: renderer.adapter(),
-        passes: rendered.times.into_iter().map(|time| (time.pass, time.milliseconds)).collect(),
-        adaptation_cd_m2: seen.adaptation_cd_m2,
+        passes: looked.times.into_iter().map(|time| (time.pass, time.milliseconds)).collect(),
+        adaptation_cd_m2: looked.seeing.adaptation_cd_m2,
     })
 }
 

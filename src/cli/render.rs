@@ -9,6 +9,7 @@ use crate::air::Atmosphere;
 use crate::air::classic::{ClassicModel, ClassicSky};
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
+use crate::display::Display;
 use crate::eye::Eye;
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
@@ -261,6 +262,7 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         moon: SceneMoon::default(),
         air: Atmosphere::clear_over(place.height_m),
         eye: Eye::default(),
+        display: Display::default(),
         marks: Marks::default(),
     });
     scene.place = place;

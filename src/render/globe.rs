@@ -160,7 +160,7 @@ impl GlobePass {
                 }
             }
         }
-        frame.picture_pass("globe", &picture, |pass| {
+        frame.picture_pass("globe", &[&picture], |pass| {
             for (pipeline, group, corners, count) in &draws {
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, group, &[]);

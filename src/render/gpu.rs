@@ -14,7 +14,7 @@ pub enum GpuError {
     )]
     NoAdapter,
     #[error(
-        "the graphics adapter {0} cannot add light in 32-bit floats; use another adapter, or the software driver (on Debian: apt-get install mesa-vulkan-drivers)"
+        "the graphics adapter {0} cannot add and blend light in 32-bit floats; use another adapter, or the software driver (on Debian: apt-get install mesa-vulkan-drivers)"
     )]
     NoFloatBlending(String),
     #[error("the graphics adapter {adapter} gave no device: {reason}")]
@@ -66,6 +66,29 @@ impl Binding {
     }
 }
 
+/// Light is added to light.
+const ADD: wgpu::BlendState = {
+    let add = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    wgpu::BlendState { color: add, alpha: add }
+};
+
+/// A step from pictures to pictures: over all pixels, or, with vertex buffers, in quads that are added to
+/// what is there.
+pub struct Stage<'a> {
+    pub label: &'a str,
+    pub source: String,
+    /// Of vertices and of fragments.
+    pub entries: [&'a str; 2],
+    /// Values of what the shader leaves open.
+    pub constants: &'a [(&'a str, f64)],
+    pub targets: &'a [wgpu::TextureFormat],
+    pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+}
+
 /// The device and its queue.
 pub struct Gpu {
     pub device: wgpu::Device,
@@ -90,13 +113,14 @@ impl Gpu {
             .map_err(|_| GpuError::NoAdapter)?;
         let info = adapter.get_info();
         let offered = adapter.features();
-        if !offered.contains(wgpu::Features::FLOAT32_BLENDABLE) {
+        let needed = wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE;
+        if !offered.contains(needed) {
             return Err(GpuError::NoFloatBlending(info.name));
         }
         let timing = wgpu::Features::TIMESTAMP_QUERY;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("nocturne"),
-            required_features: wgpu::Features::FLOAT32_BLENDABLE | (offered & timing),
+            required_features: needed | (offered & timing),
             required_limits: adapter.limits(),
             ..Default::default()
         }))
@@ -241,14 +265,8 @@ impl Gpu {
         topology: wgpu::PrimitiveTopology,
         buffers: &[Option<wgpu::VertexBufferLayout>],
     ) -> wgpu::RenderPipeline {
-        let add = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let blend = wgpu::BlendState { color: add, alpha: add };
         let module = self.module(label, source);
-        self.any_pipeline(label, &module, entries, topology, buffers, Some(blend))
+        self.any_pipeline(label, &module, entries, topology, buffers, Some(ADD))
     }
 
     /// A pipeline that writes its light over what the frame held; its entries are those of a stage,
@@ -315,6 +333,49 @@ impl Gpu {
                 entry_point: Some("fragment"),
                 compilation_options,
                 targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// A pipeline over whole pictures, or of points on them.
+    pub fn chain_pipeline(&self, stage: &Stage) -> wgpu::RenderPipeline {
+        let module = self.module(stage.label, &stage.source);
+        let compilation_options = wgpu::PipelineCompilationOptions {
+            constants: stage.constants,
+            ..Default::default()
+        };
+        let topology = match stage.buffers {
+            [] => wgpu::PrimitiveTopology::TriangleList,
+            _ => wgpu::PrimitiveTopology::TriangleStrip,
+        };
+        let targets: Vec<_> = stage
+            .targets
+            .iter()
+            .map(|&format| {
+                let blend = (!stage.buffers.is_empty()).then_some(ADD);
+                let write_mask = wgpu::ColorWrites::ALL;
+                Some(wgpu::ColorTargetState { format, blend, write_mask })
+            })
+            .collect();
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(stage.label),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(stage.entries[0]),
+                compilation_options: compilation_options.clone(),
+                buffers: stage.buffers,
+            },
+            primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(stage.entries[1]),
+                compilation_options,
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

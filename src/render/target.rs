@@ -3,12 +3,9 @@
 use crate::camera::Camera;
 use crate::image::{HdrFrame, Image};
 
-use super::Rendered;
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, PassTime};
 use super::uniforms::CameraUniform;
 
-/// Bytes of a pixel of the frame.
-const PIXEL_BYTES: u64 = 16;
 /// The frame comes back in bands of at most this size.
 const BAND_BYTES: u64 = 64 << 20;
 /// Passes that can be timed in one frame.
@@ -23,6 +20,15 @@ pub struct Target<'g> {
     encoder: wgpu::CommandEncoder,
     stamps: Option<wgpu::QuerySet>,
     passes: Vec<String>,
+    /// Whether anything was drawn on the frame.
+    is_lit: bool,
+}
+
+/// A frame that is drawn, still on the device.
+pub struct Finished {
+    pub frame: wgpu::Texture,
+    /// By pass; empty when the adapter keeps no time.
+    pub times: Vec<PassTime>,
 }
 
 impl<'g> Target<'g> {
@@ -40,7 +46,9 @@ impl<'g> Target<'g> {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: FRAME_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
         let stamps = gpu.keeps_time().then(|| {
@@ -58,52 +66,60 @@ impl<'g> Target<'g> {
             encoder: gpu.device.create_command_encoder(&Default::default()),
             stamps,
             passes: Vec::new(),
+            is_lit: false,
             gpu,
         })
     }
 
     /// Records one pass over the frame. The first one finds it black.
     pub fn pass(&mut self, label: &str, draw: impl FnOnce(&mut wgpu::RenderPass)) {
-        let number = self.passes.len() as u32;
-        let load = match number {
-            0 => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            _ => wgpu::LoadOp::Load,
+        let load = match std::mem::replace(&mut self.is_lit, true) {
+            false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            true => wgpu::LoadOp::Load,
         };
-        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(label),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-            })],
-            timestamp_writes: stamps(self.stamps.as_ref(), number),
-            ..Default::default()
-        });
-        draw(&mut pass);
-        drop(pass);
-        self.passes.push(label.to_owned());
+        let view = self.view.clone();
+        self.record(label, &[&view], load, draw);
     }
 
-    /// Records a pass over a picture beside the frame, black and empty at first.
+    /// Records a pass over pictures beside the frame, black and empty at first.
     pub fn picture_pass(
+        &mut self,
+        label: &str,
+        pictures: &[&wgpu::TextureView],
+        draw: impl FnOnce(&mut wgpu::RenderPass),
+    ) {
+        self.record(label, pictures, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), draw);
+    }
+
+    /// Records a pass that adds to a picture beside the frame.
+    pub fn adding_pass(
         &mut self,
         label: &str,
         picture: &wgpu::TextureView,
         draw: impl FnOnce(&mut wgpu::RenderPass),
     ) {
+        self.record(label, &[picture], wgpu::LoadOp::Load, draw);
+    }
+
+    fn record(
+        &mut self,
+        label: &str,
+        pictures: &[&wgpu::TextureView],
+        load: wgpu::LoadOp<wgpu::Color>,
+        draw: impl FnOnce(&mut wgpu::RenderPass),
+    ) {
         let number = self.passes.len() as u32;
-        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(label),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: picture,
+        let attachment = |&view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+            })
+        };
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &pictures.iter().map(attachment).collect::<Vec<_>>(),
             timestamp_writes: stamps(self.stamps.as_ref(), number),
             ..Default::default()
         });
@@ -141,15 +157,27 @@ impl<'g> Target<'g> {
         self.gpu.bind(&pipeline.get_bind_group_layout(0), &buffers)
     }
 
-    /// Draws everything recorded and brings the frame and the times back.
-    pub fn finish(mut self) -> Result<Rendered, GpuError> {
+    /// The frame, to be read by passes beside it.
+    pub fn view(&self) -> wgpu::TextureView {
+        self.view.clone()
+    }
+
+    /// Has what is recorded so far begun.
+    pub fn submit(&mut self) {
+        let next = self.gpu.device.create_command_encoder(&Default::default());
+        let recorded = std::mem::replace(&mut self.encoder, next);
+        self.gpu.queue.submit([recorded.finish()]);
+    }
+
+    /// Draws everything recorded and says what it cost.
+    pub fn finish(mut self) -> Result<Finished, GpuError> {
         let stamps = self.resolve_stamps();
         self.gpu.queue.submit([self.encoder.finish()]);
         let times = match stamps {
             Some(buffer) => pass_times(self.gpu, &buffer, &self.passes)?,
             None => Vec::new(),
         };
-        Ok(Rendered { frame: read_back(self.gpu, &self.texture)?, times })
+        Ok(Finished { frame: self.texture, times })
     }
 
     /// Has the time stamps of the passes copied to a buffer that can be read.
@@ -243,14 +271,24 @@ fn pass_times(
     })
 }
 
-/// Copies a frame to memory, band by band so that its size is bounded by the frame alone.
-fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<HdrFrame, GpuError> {
+/// Copies a frame to memory.
+pub fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<HdrFrame, GpuError> {
+    read_pixels(gpu, texture, [0.0f32; 4])
+}
+
+/// Copies a texture to memory, band by band so that its size is bounded by the picture alone. Texels are
+/// of the type of `black`.
+pub fn read_pixels<P: bytemuck::Pod>(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    black: P,
+) -> Result<Image<P>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let row = (u64::from(width) * PIXEL_BYTES)
-        .next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+    let line_bytes = width as usize * size_of::<P>();
+    let row = (line_bytes as u64).next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
     let band_rows = (BAND_BYTES / row).clamp(1, u64::from(height)) as u32;
     let buffer = readable_buffer(gpu, row * u64::from(band_rows));
-    let mut frame = Image::filled(width, height, [0.0f32; 4]);
+    let mut picture = Image::filled(width, height, black);
     let mut first = 0;
     while first < height {
         let rows = band_rows.min(height - first);
@@ -274,16 +312,15 @@ fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<HdrFrame, GpuError> {
         );
         gpu.queue.submit([encoder.finish()]);
         let start = (first * width) as usize;
-        let into = &mut frame.pixels_mut()[start..start + (rows * width) as usize];
+        let into = &mut picture.pixels_mut()[start..start + (rows * width) as usize];
         with_bytes(gpu, &buffer, |bytes| {
             for (pixels, line) in
                 into.chunks_exact_mut(width as usize).zip(bytes.chunks(row as usize))
             {
-                let line = &line[..pixels.len() * PIXEL_BYTES as usize];
-                bytemuck::cast_slice_mut::<[f32; 4], u8>(pixels).copy_from_slice(line);
+                bytemuck::cast_slice_mut::<P, u8>(pixels).copy_from_slice(&line[..line_bytes]);
             }
         })?;
         first += rows;
     }
-    Ok(frame)
+    Ok(picture)
 }

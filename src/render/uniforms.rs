@@ -10,6 +10,7 @@ use glam::DMat3;
 
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
+use crate::display::Display;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::belts;
 use crate::light::disc_light::disc_axes;
@@ -22,6 +23,8 @@ use crate::plan::planet::PlanetDisc;
 use crate::plan::{DARK_AZIMUTHS, SKY_SHAPE, Side, SkyPlan, SourceSky};
 use crate::units::Angle;
 
+use super::picture::Depth;
+
 /// `Camera` of `shaders/lib/camera.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -30,6 +33,32 @@ pub struct CameraUniform {
     pub size_px: [f32; 2],
     pub focal_px: f32,
     pub projection: u32,
+}
+
+/// `Display` of `shaders/lib/display.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct DisplayUniform {
+    pub rgb_from_xyz: [[f32; 4]; 3],
+    pub shown_from_rgb: [[f32; 4]; 3],
+}
+
+impl DisplayUniform {
+    pub fn of(display: &Display) -> DisplayUniform {
+        DisplayUniform {
+            rgb_from_xyz: columns(display.rgb_from_xyz()),
+            shown_from_rgb: columns(display.shown_from_rgb()),
+        }
+    }
+}
+
+/// Values for the constants that `shaders/lib/display.wgsl` leaves open.
+pub fn picture_constants(display: &Display, depth: Depth) -> [(&'static str, f64); 2] {
+    let (is_encoded, steps) = match depth {
+        Depth::Codes => (display.space.is_encoded(), if display.dither { 255.0 } else { 0.0 }),
+        Depth::Linear => (false, 0.0),
+    };
+    [("IS_ENCODED", f64::from(u8::from(is_encoded))), ("CODE_STEPS", steps)]
 }
 
 /// `Sky` of `shaders/skylight.wgsl`.
@@ -65,6 +94,34 @@ impl MilkyWayCorner {
         let pixel = pixel.map(|v| v as f32);
         MilkyWayCorner { pixel, dir: [0.0, 0.0, 1.0], blue: [0.0; 4], red: [0.0; 4], over: -1.0 }
     }
+}
+
+/// `Step` of `shaders/pyramid.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PyramidStepUniform {
+    pub share: f32,
+    pub coarser: f32,
+    pub level: f32,
+    pub pad: f32,
+}
+
+/// `Retina` of `shaders/lib/retina.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct RetinaUniform {
+    pub in_place: f32,
+    pub spread: f32,
+    pub size_px: [f32; 2],
+}
+
+/// A point of light for `shaders/points.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PointInstance {
+    pub centre_px: [f32; 2],
+    pub colour: [f32; 3],
+    pub illuminance: f32,
 }
 
 /// `Disc` of `shaders/discs.wgsl`.
