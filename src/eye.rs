@@ -12,8 +12,15 @@
 //! looks at a star with the fovea, whose middle degree has no rods. Acuity and the time that
 //! adaptation takes are not here yet.
 
+pub mod acuity;
 pub mod glare;
 pub mod limiting_magnitude;
+pub mod mesopic;
+pub mod pupil;
+pub mod receptors;
+pub mod rod_intrusion;
+pub mod rods;
+pub mod threshold;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -22,6 +29,7 @@ use crate::image::{HdrFrame, Image};
 use crate::units::{Angle, Xyzv};
 
 use self::glare::scattered;
+use self::threshold::combined_cd_m2 as threshold_cd_m2;
 
 /// How the picture is seen and shown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,25 +96,6 @@ fn cone_share(luminance_cd_m2: f64) -> f64 {
     let log = luminance_cd_m2.max(1e-12).log10();
     let x = ((log - RODS_ALONE_LOG) / (CONES_ALONE_LOG - RODS_ALONE_LOG)).clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
-}
-
-/// The smallest difference of luminance that an eye adapted to `luminance_cd_m2` sees, cd/m2.
-///
-/// Ward Larson et al. 1997, table 1, after Ferwerda et al. 1996: the better of rods and cones.
-pub fn threshold_cd_m2(luminance_cd_m2: f64) -> f64 {
-    let log = luminance_cd_m2.max(1e-12).log10();
-    let log_threshold = if log < -3.94 {
-        -2.86
-    } else if log < -1.44 {
-        (0.405 * log + 1.6).powf(2.18) - 2.86
-    } else if log < -0.0184 {
-        log - 0.395
-    } else if log < 1.9 {
-        (0.249 * log + 0.65).powf(2.7) - 0.72
-    } else {
-        log - 1.255
-    };
-    10f64.powf(log_threshold)
 }
 
 impl Eye {
