@@ -52,10 +52,12 @@ pub fn adaptation_coefficient(photopic_cd_m2: f64, scotopic_cd_m2: f64) -> f64 {
             high = m;
         }
         let by_ln = mixture_slope(m, photopic_cd_m2, scotopic_cd_m2) / luminance;
-        let newton = m - excess / (SLOPE * std::f64::consts::LOG10_E * by_ln - 1.0);
+        let slope = SLOPE * std::f64::consts::LOG10_E * by_ln - 1.0;
+        let newton = m - excess / slope;
         let next = match newton {
+            // Past the top of the excess, or below 0: there is no solution.
+            _ if red && (slope >= 0.0 || newton < PRECISION) => return 0.0,
             _ if newton > low && newton < high => newton,
-            _ if red && newton < PRECISION => return 0.0,
             _ => 0.5 * (low + high),
         };
         if (next - m).abs() < PRECISION {
@@ -156,12 +158,9 @@ mod tests {
             for step in -8000..=3000 {
                 let photopic = 10f64.powf(f64::from(step) / 1000.0);
                 let here = luminance_cd_m2(photopic, ratio * photopic);
-                // Where there is one solution, no step of 0.23 % becomes one of 4 %.
+                // Well inside the lights with one solution no step of 0.23 % becomes one of 2 %.
                 assert!(here > before || ratio == 0.0 && here == 0.0, "{ratio} {photopic}: {here}");
-                assert!(
-                    here < 1.04 * before || step == -8000 || ratio < 0.27,
-                    "{ratio} {photopic}"
-                );
+                assert!(here < 1.02 * before || step == -8000 || ratio < 0.3, "{ratio} {photopic}");
                 before = here;
             }
         }

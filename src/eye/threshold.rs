@@ -4,7 +4,7 @@
 //! and 2, piecewise fits of the logarithms (base 10, cd/m2). Both together: Ward Larson, Rushmeier &
 //! Piatko 1997 (*IEEE TVCG* 3, 291), table 1, the better of the two at each luminance. The rods' curve
 //! is in scotopic cd/m2; the combined one takes photopic luminance for white light, and we give it
-//! what rods and cones see together ([`crate::eye::receptors::seen_luminance`]).
+//! what rods and cones see together ([`crate::eye::receptors::seen_luminance_cd_m2`]).
 //!
 //! *Steps.* The published pieces do not quite meet. Where the luminance grows, the rods' curve and the
 //! combined one fall by 0.0120 in the logarithm (2.7 %) at log L = -1.44, and the cones' and the
