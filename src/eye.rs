@@ -13,6 +13,7 @@
 //! adaptation takes are not here yet.
 
 pub mod acuity;
+pub mod extended_threshold;
 pub mod glare;
 pub mod limiting_magnitude;
 pub mod mesopic;

@@ -13,7 +13,7 @@
 //!   is left, as one finds under the stars.
 //! - [`NightColour::Intrusion`]: cones and rods as they weigh in the mesopic luminance, rods in the
 //!   blue-green that they have in the pathways of the cones ([`super::rod_intrusion`]). Colours live on
-//!   down to 0.005 cd/m2 and cones count for more than with Jensen: 28 % at 0.01 cd/m2.
+//!   down to 0.005 cd/m2 and cones count for more than with Jensen, 22 % at 0.01 cd/m2.
 //! - [`NightColour::Day`]: the light itself.
 //!
 //! Jensen's is the default: it is what the paper does that this program follows, people take it for

@@ -19,8 +19,8 @@
 //!
 //! *Our numbers.* Cone fundamentals are those of Smith & Pokorny 1975, as a matrix on XYZ (the rows sum
 //! to luminance: `L + M = Y`; looked up in public code). They are meant for the observer of Judd and Vos;
-//! with that of CIE 1931 they are too low below 460 nm. `L_max` and `M_max` come out as 0.6366 and 0.3920
-//! (published: 0.6372 and 0.3924); `S_max` is 1.776 with `S = Z`, so that white of equal energy has
+//! with that of CIE 1931 they are too low below 460 nm. `L_max` and `M_max` come out as 0.6367 and 0.3925
+//! (published: 0.6372 and 0.3924); `S_max` is 1.783 with `S = Z`, so that white of equal energy has
 //! `S = L + M` (published: 1.6064, on a scale that we could not find out). R is in trolands of rods:
 //! those of white of equal energy count as much as its photopic ones. Trolands come from the unified
 //! pupil of someone of [`AGE_YEARS`] who has adapted to the light.
@@ -31,9 +31,13 @@
 //! channel moves M against L from where white has them, 1 to 2. (2) The luminance channel of the formula
 //! lets rods be a half of what is seen at 100 cd/m2: rods do not saturate in it. It is used for the
 //! colour alone, per unit of luminance; how much rods add is the mesopic luminance of CIE 191.
-//! (3) Gains are those of a white light, so that the mixture is linear in X, Y, Z and V. What comes
-//! out is blue-green: x, y near (0.264, 0.350) in the dark, less blue and more green than the convention
-//! of [`super::rods`], and as matched by Cao et al. (less L against M, more S).
+//! (3) Gains are those of a white light, so that the mixture is linear in X, Y, Z and V.
+//!
+//! *What comes out* is blue-green: x, y of (0.265, 0.350) in the dark, (0.264, 0.348) at 1 cd/m2. It is less blue
+//! and more green than the convention of [`super::rods`], and goes the way that was measured: rods weigh
+//! more with M than with L, "leading to a more greenish percept" at 2 to 20 td (Cao, Pokorny & Smith, *Journal
+//! of Vision*, abstract 2131691). The public formula says how far; on our scale that is far from
+//! white, and may be too far.
 
 use std::sync::LazyLock;
 
@@ -165,6 +169,6 @@ mod tests {
         }
         let [x, y, z] = rod_colour_xyz(0.0, 0.0);
         let (x, y) = chromaticity_xy(Xyzv::new(x, y, z, 0.0)).unwrap();
-        assert!((x - 0.264).abs() < 1e-3 && (y - 0.350).abs() < 1e-3, "{x} {y}");
+        assert!((x - 0.2646).abs() < 1e-3 && (y - 0.3499).abs() < 1e-3, "{x} {y}");
     }
 }
