@@ -14,9 +14,18 @@
 //! are matched by Crumey's thresholds, so that a star is as far above the threshold of who looks at the
 //! screen as it was above that of who looks at the sky, and one below it is not drawn.
 
+
+pub mod acuity;
+pub mod extended_threshold;
 pub mod glare;
 pub mod light_table;
 pub mod limiting_magnitude;
+pub mod mesopic;
+pub mod pupil;
+pub mod receptors;
+pub mod rod_intrusion;
+pub mod rods;
+pub mod threshold;
 
 use serde::{Deserialize, Serialize};
 
