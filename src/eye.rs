@@ -13,7 +13,10 @@
 //! adaptation takes are not here yet.
 
 pub mod glare;
+pub mod histogram_adjustment;
 pub mod limiting_magnitude;
+pub mod paper;
+pub mod tone_curve;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
