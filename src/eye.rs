@@ -12,6 +12,7 @@
 //! looks at a star with the fovea, whose middle degree has no rods. Acuity and the time that
 //! adaptation takes are not here yet.
 
+pub mod adaptation;
 pub mod glare;
 pub mod histogram_adjustment;
 pub mod limiting_magnitude;

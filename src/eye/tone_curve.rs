@@ -18,7 +18,8 @@
 //!    linearly. What does not fit, above the anchor or below, is given the slopes `min(1, kappa p^GAMMA)`, where
 //!    `p` is the share of the picture per e-fold of luminance, and `kappa` is such that it just fits.
 //!    The small [`GAMMA`] is because one looks at what is bright however small it is: the Moon
-//!    is one part of thousands and still has her seas. Where nothing is, `p` is [`EMPTY`].
+//!    is one part of thousands and still has her seas. Where nothing is, `p` is [`EMPTY`]. Where
+//!    much of the picture would be flattened so, the anchor gives way ([`YIELDING`]).
 //! 3. *Ends.* The brightest sample is shown at [`TOP_SHARE`] of the peak or below; what is brighter
 //!    (smaller than a sample) approaches the peak and never reaches it. Below the darkest sample the
 //!    curve is linear, down to 0 at 0. What is too dark to be told from black takes no part in 2.
@@ -83,13 +84,16 @@ const ADAPTED_CD_M2: [f64; 2] = [1e-6, 1e8];
 /// How the slope follows the share of the picture.
 const GAMMA: f64 = 0.3;
 /// The share of the picture per e-fold where nothing is.
-const EMPTY: f64 = 1e-5;
+const EMPTY: f64 = 2e-6;
 /// A stretch is empty in full only if beyond it there is this share of the picture.
 const BEYOND: f64 = 1e-4;
 /// The share of the peak at which the brightest sample is shown at most.
 const TOP_SHARE: f64 = 0.85;
 /// From this share of the peak on, what is brighter than any sample is compressed.
 const SHOULDER_SHARE: f64 = 0.3;
+/// How far the anchor gives way, in e-folds, where the picture would lose all of its contrast on one side of
+/// it; this goes with the cube of what it loses.
+const YIELDING: f64 = 8.0;
 /// No slope is less.
 const LEAST_SLOPE: f64 = 1e-4;
 /// The range below the anchor has at least this much room, in e-folds, be it below the screen's black.
@@ -182,7 +186,8 @@ impl ToneCurve {
             shown: (anchor_cd_m2(adapted, screen) / screen.peak_cd_m2).ln(),
         };
         let histogram = Histogram::of(samples, anchor.at);
-        let (slopes, top) = slopes(&histogram, anchor, screen);
+        let (slopes, anchor_shown) = slopes(&histogram, anchor, screen);
+        let top = histogram.brightest;
 
         // Trapezia: between nodes the slope is linear, so that the curve has no corner.
         let mut pieces = Vec::with_capacity(NODES);
@@ -199,7 +204,7 @@ impl ToneCurve {
             below: Below::Linear,
             above: Above::Held,
         };
-        let up = anchor.shown - curve.log_shown(anchor.at);
+        let up = anchor_shown - curve.log_shown(anchor.at);
         let excess = (curve.log_shown(top) + up - TOP_SHARE.ln()).max(0.0);
         for piece in &mut curve.pieces {
             piece[0] += up - excess;
@@ -333,45 +338,66 @@ fn smooth(values: &mut [f64]) {
     }
 }
 
-/// The slopes of the curve at the nodes, and the logarithm of the luminance at which the samples end.
-fn slopes(histogram: &Histogram, anchor: Anchor, screen: Screen) -> (Vec<f64>, f64) {
-    let side = |from: f64, to: f64, beyond: &[f64], room: f64| {
+/// A stretch of the curve to one side of the anchor.
+struct Side {
+    nodes: std::ops::RangeInclusive<usize>,
+    /// Of each node: how much of its cell lies within the stretch, and the weight of its slope.
+    cells: Vec<(f64, f64)>,
+}
+
+impl Side {
+    /// Between two logarithms of luminance; `beyond` is the share of the picture farther from the anchor.
+    fn of(histogram: &Histogram, from: f64, to: f64, beyond: &[f64]) -> Side {
         let node = |log: f64| (((log - FIRST) / STEP).round() as usize).min(NODES - 1);
-        let range = node(from)..=node(to);
-        // How much of each node's cell lies within the range, and how much of the picture is there.
-        let cells: Vec<(f64, f64)> = range
-            .clone()
-            .map(|i| {
-                let start = FIRST + STEP * (i as f64 - 0.5);
-                let length = to.min(start + STEP) - from.max(start);
-                let empty = EMPTY * (beyond[i] / BEYOND).clamp(0.0, 1.0);
-                (length.max(0.0), (histogram.density[i] + empty).powf(GAMMA))
-            })
-            .collect();
-        let scale = fitting_scale(&cells, room);
-        let slope = |&(_, share): &(f64, f64)| (scale * share).clamp(LEAST_SLOPE, 1.0);
-        (range, cells.iter().map(slope).collect::<Vec<f64>>())
-    };
-    let top = TOP_SHARE.ln();
-    let Histogram { darkest, brightest, .. } = *histogram;
-    let (up_range, up) = side(anchor.at, brightest, &histogram.above, top - anchor.shown);
-    let down_room = (anchor.shown - screen.log_black()).max(LEAST_ROOM);
-    let (down_range, down) = side(darkest, anchor.at, &histogram.below, down_room);
+        let nodes = node(from)..=node(to);
+        let cell = |i: usize| {
+            let start = FIRST + STEP * (i as f64 - 0.5);
+            let length = to.min(start + STEP) - from.max(start);
+            let empty = EMPTY * (beyond[i] / BEYOND).clamp(0.0, 1.0);
+            (length.max(0.0), (histogram.density[i] + empty).powf(GAMMA))
+        };
+        Side { cells: nodes.clone().map(cell).collect(), nodes }
+    }
+
+    /// The slopes that fill the room, or 1 if all fits.
+    fn slopes(&self, room: f64) -> Vec<f64> {
+        let scale = fitting_scale(&self.cells, room);
+        self.cells.iter().map(|(_, weight)| (scale * weight).clamp(LEAST_SLOPE, 1.0)).collect()
+    }
+
+    /// The contrast that the picture loses to these slopes, 0 to 1.
+    fn lost(&self, histogram: &Histogram, slopes: &[f64]) -> f64 {
+        let density = &histogram.density[self.nodes.clone()];
+        let lost = self.cells.iter().zip(slopes).zip(density);
+        lost.map(|(((length, _), slope), density)| length * density * (1.0 - slope)).sum()
+    }
+}
+
+/// The slopes of the curve at the nodes, and where the anchor is to be shown.
+fn slopes(histogram: &Histogram, anchor: Anchor, screen: Screen) -> (Vec<f64>, f64) {
+    let up = Side::of(histogram, anchor.at, histogram.brightest, &histogram.above);
+    let down = Side::of(histogram, histogram.darkest, anchor.at, &histogram.below);
+    let room_up = TOP_SHARE.ln() - anchor.shown;
+    let room_down = (anchor.shown - screen.log_black()).max(LEAST_ROOM);
+    // The anchor gives way to the side on which more of the picture is lost.
+    let lost = |side: &Side, room: f64| side.lost(histogram, &side.slopes(room)).powi(3);
+    let wished = YIELDING * (lost(&up, room_up) - lost(&down, room_down));
+    let lower = wished.clamp(-0.5 * room_up, 0.5 * room_down);
+    let slopes_up = up.slopes(room_up + lower);
+    let slopes_down = down.slopes(room_down - lower);
 
     let mut slopes = vec![1.0; NODES];
-    slopes[down_range].copy_from_slice(&down);
+    slopes[down.nodes].copy_from_slice(&slopes_down);
     // The anchor's own cell belongs to both sides, to each as far as it reaches.
-    let shared = *up_range.start();
+    let (shared, end) = up.nodes.into_inner();
     let share = (FIRST + STEP * (shared as f64 + 0.5) - anchor.at) / STEP;
-    slopes[shared] += share.clamp(0.0, 1.0) * (up[0] - slopes[shared]);
-    let end = *up_range.end();
-    slopes[shared + 1..=end].copy_from_slice(&up[1..]);
-    let last = up[up.len() - 1];
-    slopes[end + 1..].fill(last);
+    slopes[shared] += share.clamp(0.0, 1.0) * (slopes_up[0] - slopes[shared]);
+    slopes[shared + 1..=end].copy_from_slice(&slopes_up[1..]);
+    slopes[end + 1..].fill(slopes_up[slopes_up.len() - 1]);
     for _ in 0..SLOPE_PASSES {
         smooth(&mut slopes);
     }
-    (slopes, brightest)
+    (slopes, anchor.shown - lower)
 }
 
 /// The scale of the slopes with which cells (length, share) fill the room; infinite if all fit at slope 1.
