@@ -15,17 +15,22 @@
 //! screen as it was above that of who looks at the sky, and one below it is not drawn.
 
 
+
 pub mod acuity;
+pub mod adaptation;
 pub mod extended_threshold;
 pub mod glare;
+pub mod histogram_adjustment;
 pub mod light_table;
 pub mod limiting_magnitude;
 pub mod mesopic;
+pub mod paper;
 pub mod pupil;
 pub mod receptors;
 pub mod rod_intrusion;
 pub mod rods;
 pub mod threshold;
+pub mod tone_curve;
 
 use serde::{Deserialize, Serialize};
 
