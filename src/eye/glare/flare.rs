@@ -10,7 +10,7 @@
 //!
 //! The light: the ring has the share [`Spread::halo`], for a white light of equal energy at each
 //! wavelength. The needles have what Spencer's corona gains by night ([`Spread::corona`]), as far
-//! as the texture reaches; by day they are there too, but finer than the picture.
+//! as the texture reaches; those of day stay in the smooth spread.
 //!
 //! How we differ: needles are straight, of one width and without colour; nothing moves.
 //!
@@ -81,8 +81,8 @@ impl Flare {
             for azimuth in 0..AZIMUTHS {
                 let comb = combed[row * AZIMUTHS + azimuth];
                 let corona = comb * corona_rows[row] * needles / corona_sum;
-                // The ring is combed less: fibres stand closer than grains.
-                let fibres = 0.5 + 0.5 * comb;
+                // The ring is combed less, fibres stand closer than grains; all needles reach it.
+                let fibres = 0.5 + 0.5 * combed[azimuth];
                 let ring = ring_rows[row];
                 texels.push(std::array::from_fn(|channel| {
                     corona + fibres * ring[channel] * spread.halo() / ring_sums[channel]
@@ -114,6 +114,8 @@ impl Flare {
 
     /// How far from a point of an illuminance in lux the flare is seen against a background in
     /// cd/m2, or `None` if it is not, or nowhere outside the 6 minutes that a star seems to fill.
+    ///
+    /// For a disc as well as for a star: the Moon by the illuminance of all of it.
     ///
     /// Seen is what is brighter than the smallest difference of luminance that an eye adapted to the
     /// background tells apart (t.v.i.), in the mean around the circle.

@@ -20,7 +20,10 @@
 //!
 //! How we differ: the halo is round and ends where the wide part has taken over.
 //!
-//! Accuracy: MEASURED.
+//! Accuracy: core, sprite as summed over the pixels, wide part and flare hold all of the light to
+//! 1e-4, for pixels of 0.5 to 15 minutes. Near and wide part together follow the spread function
+//! within 22 % from 4 pixels to 10 degrees or 500 pixels: softness makes the halo too bright by 15 %
+//! at 4 pixels, the rest is the pyramid's.
 
 use std::f64::consts::PI;
 

@@ -41,6 +41,13 @@ const WIDEST_TEXELS: usize = 4;
 /// edge.
 const FARTHEST_DEG: f64 = 60.0;
 
+/// Taps of the step from the picture to the first level, and of those between levels.
+///
+/// With the taps of the other steps the first would be better: the dip of [`shares`] between 2 and 4
+/// pixels would be gone and its scatter halved, for four times the reads of the whole picture.
+const FIRST_TAPS: [f64; 4] = [0.0, 0.5, 0.5, 0.0];
+const TAPS: [f64; 4] = [0.125, 0.375, 0.375, 0.125];
+
 /// Number of levels of a picture.
 pub fn level_count(width_px: u32, height_px: u32) -> usize {
     let mut longest = width_px.max(height_px) as usize;
@@ -83,8 +90,8 @@ fn exact_kernel(level: usize) -> Vec<f64> {
     let texel = vec![1.0];
     let given =
         (1..=level).fold(texel.clone(), |line, _| refined(&line, &[0.25, 0.75, 0.75, 0.25]));
-    let taken = (1..level).fold(texel, |line, _| refined(&line, &[0.125, 0.375, 0.375, 0.125]));
-    let taken = refined(&taken, &[0.5, 0.5]);
+    let taken = (1..level).fold(texel, |line, _| refined(&line, &TAPS));
+    let taken = refined(&taken, &FIRST_TAPS);
     let offset = (given.len() - taken.len()) / 2;
     let texel_px = (1u64 << level) as f64;
     let reach = offset + taken.len();
@@ -114,7 +121,12 @@ fn refined(line: &[f64], taps: &[f64]) -> Vec<f64> {
 ///
 /// `pixel` is between neighbouring pixels in the middle of the picture and above zero.
 ///
-/// Accuracy: MEASURED.
+/// Accuracy, at 1920 by 1080 pixels of 0.3 to 10 minutes, of the mean of all pixels within an octave of
+/// the distance, over places of the source between the texels: 5 % from 4 pixels to 40 degrees or
+/// 320 pixels, where light that the edges turn back begins to show; between 2 and 4 pixels 5 % for
+/// pixels up to one minute and 14 % too little for larger ones. From one pixel to a single other
+/// one it differs with their places: a factor of 2 either way next to the source (once 5, to the
+/// corner of a block of 2 by 2), 1.4 farther out. A tenth of a millisecond.
 pub fn shares(spread: &Spread, pixel: Angle, width_px: u32, height_px: u32) -> Vec<f64> {
     let levels = level_count(width_px, height_px);
     let pixel_deg = pixel.deg();
@@ -201,7 +213,7 @@ pub fn places_within(pixels: usize, levels: usize) -> Vec<Vec<f64>> {
 
 /// Texels of a line of `len` that give their light to number `n` of the next level, and how much.
 fn taps(len: usize, n: usize, level: usize) -> impl Iterator<Item = (usize, f64)> {
-    let taps = if level == 1 { [0.0, 0.5, 0.5, 0.0] } else { [0.125, 0.375, 0.375, 0.125] };
+    let taps = if level == 1 { FIRST_TAPS } else { TAPS };
     let even = len.is_multiple_of(2);
     (0..4).filter_map(move |k| {
         let at = (2 * n + k).saturating_sub(1);
