@@ -18,39 +18,77 @@ struct Corner {
     @location(2) @interpolate(flat) code: f32,
 }
 
+// How the light of a point is parted, and the table of its halo.
+struct Halo {
+    core: f32,
+    rows_per_octave: f32,
+    first_log2_px: f32,
+    rows: f32,
+}
+
 @group(0) @binding(0) var between: sampler;
 @group(0) @binding(1) var<uniform> retina: Retina;
+@group(0) @binding(2) var<uniform> halo: Halo;
 // For a background: shares of white times square pixels for a lux, the faintest point that is seen in lux, and
 // the size of a code.
-@group(0) @binding(2) var visible: texture_2d<f32>;
-@group(0) @binding(3) var spread: texture_2d<f32>;
-// The frame at half its resolution, without points.
-@group(0) @binding(4) var half_frame: texture_2d<f32>;
+@group(0) @binding(3) var visible: texture_2d<f32>;
+// The frame around, and what is spread of it, coarse.
+@group(0) @binding(4) var around: texture_2d<f32>;
+@group(0) @binding(5) var spread_around: texture_2d<f32>;
+// Light of the halo per square pixel, by the logarithm of the distance.
+@group(0) @binding(6) var halo_rows: texture_2d<f32>;
 
 // A point begins to show at this share of the threshold.
 const GLIMPSED: f32 = 0.7;
+// A halo ends where it is less than this share of a code.
+const LEAST_CODE: f32 = 0.2;
+// The code of a deep picture, that has none, is taken to be this.
+const DEEP_CODE: f32 = 1e-5;
 
 @vertex
 fn vertex(point: Point, @builtin(vertex_index) index: u32) -> Corner {
-    let background = retina.in_place * from_half(half_frame, between, point.centre_px)
-        + retina.spread * from_half(spread, between, point.centre_px);
+    let centre = point.centre_px;
+    let background = retina.in_place * from_level(around, between, centre, retina.around_scale)
+        + from_level(spread_around, between, centre, retina.around_scale);
     let seen = at_light(visible, between, background);
     let share = smoothstep(GLIMPSED, 1.0, point.illuminance / seen.y);
-    let shown = point.colour * (point.illuminance * seen.x * share);
+    let strength = point.illuminance * seen.x * share;
+    let brightest = strength * max(point.colour.r, max(point.colour.g, point.colour.b));
     // The pixels whose centres lie within two pixels of the point; none of a point that is not seen.
-    let first = floor(point.centre_px - 0.5) - 1.0;
-    let extent = select(0.0, 4.0, share > 0.0);
+    let reach = select(0.0, max(halo_reach(LEAST_CODE * max(seen.z, DEEP_CODE) / brightest), 2.0), share > 0.0);
+    let first = floor(centre - 0.5) + 1.0 - ceil(reach);
+    let extent = 2.0 * ceil(reach);
     let corner = (first + extent * vec2f(f32(index & 1u), f32(index >> 1u))) / retina.size_px;
     let position = vec4f(2.0 * corner.x - 1.0, 1.0 - 2.0 * corner.y, 0.0, 1.0);
-    return Corner(position, point.centre_px, shown, seen.z);
+    return Corner(position, centre, strength * point.colour, seen.z);
+}
+
+// Given a row of the table of the halo, its light per square pixel; none beyond the last.
+fn halo_row(row: f32) -> f32 {
+    return textureSampleLevel(halo_rows, between, vec2f((row + 0.5) / halo.rows, 0.5), 0.0).x;
+}
+
+// Given light per square pixel, the distance at which the halo has no more, pixels.
+fn halo_reach(least: f32) -> f32 {
+    var low = 0.0;
+    var high = halo.rows - 1.0;
+    for (var step = 0; step < 9; step++) {
+        let middle = 0.5 * (low + high);
+        let is_brighter = halo_row(middle) > least;
+        low = select(low, middle, is_brighter);
+        high = select(middle, high, is_brighter);
+    }
+    return exp2(high / halo.rows_per_octave + halo.first_log2_px);
 }
 
 @fragment
 fn fragment(corner: Corner) -> @location(0) vec4f {
     let off = corner.position.xy - corner.centre_px;
-    let light = corner.shown * (cubic_b_spline(off.x) * cubic_b_spline(off.y));
+    let row = (log2(max(length(off), 1e-3)) - halo.first_log2_px) * halo.rows_per_octave;
+    let core = halo.core * cubic_b_spline(off.x) * cubic_b_spline(off.y);
+    let light = corner.shown * (core + halo_row(row));
     // What is too bright for the screen keeps its colour.
     let held = light / max(1.0, max(light.r, max(light.g, light.b)));
     let noise = (dither(corner.position.yx) - 0.5) * corner.code;
-    return vec4f(max(held + noise * step(vec3f(1e-6), held), vec3f(0.0)), 0.0);
+    return vec4f(max(held + noise * step(vec3f(1e-7), held), vec3f(0.0)), 0.0);
 }

@@ -1,12 +1,16 @@
 // A picture at half its resolution again and again, and the way back up: each step keeps the sum of the
-// light, and keeps an even picture even.
+// light, and keeps an even picture even. The twin is src/eye/glare/pyramid.rs.
 
-// The step up: how much of the light of this level stays on it, and what the coarser level counts.
 struct Step {
+    // How much of the light of this level is spread, and what the coarser level counts.
     share: f32,
     coarser: f32,
     level: f32,
-    pad: f32,
+    // Share of the light that is not spread at all.
+    in_place: f32,
+    // How much of the last three texels of each axis lies in the picture.
+    within_x: vec4f,
+    within_y: vec4f,
 }
 
 @group(0) @binding(0) var between: sampler;
@@ -23,11 +27,13 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return full_screen_corner(index);
 }
 
-// Means of two by two pixels; the last ones alone where their number is odd.
+// Two by two pixels; at an odd end a texel has half of its light, as it has half of its place.
 @fragment
 fn first(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
     let size = vec2f(textureDimensions(picture));
-    return textureSampleLevel(picture, between, min(2.0 * pixel.xy, size - 0.5) / size, 0.0);
+    let mean = textureSampleLevel(picture, between, min(2.0 * pixel.xy, size - 0.5) / size, 0.0);
+    let part = select(vec2f(1.0), vec2f(0.5), 2.0 * pixel.xy >= size + 0.5);
+    return part.x * part.y * mean;
 }
 
 // Weights 1 3 3 1 on each axis, 1 3 at an odd end; beyond the other ends the picture is mirrored.
@@ -41,7 +47,21 @@ fn halved(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
         + textureSampleLevel(picture, between, vec2f(far.x, near.y), 0.0);
     let below = textureSampleLevel(picture, between, vec2f(near.x, far.y), 0.0)
         + textureSampleLevel(picture, between, far, 0.0);
-    return 0.25 * (above + below);
+    let part = select(vec2f(1.0), vec2f(0.5), first + 1.0 >= size);
+    return 0.25 * part.x * part.y * (above + below);
+}
+
+// Given a texel of an axis, how much of it lies in the picture.
+fn within(texel: u32, texels: u32, last: vec4f) -> f32 {
+    let from_end = texels - texel;
+    return select(select(select(1.0, last.x, from_end == 3u), last.y, from_end == 2u), last.z, from_end == 1u);
+}
+
+// Given a texel of this level, the luminance there.
+fn luminance(texel: vec2u) -> LuminanceXyzv {
+    let texels = textureDimensions(picture);
+    let part = within(texel.x, texels.x, step.within_x) * within(texel.y, texels.y, step.within_y);
+    return textureLoad(picture, texel, 0) / part;
 }
 
 // Given a pixel of this level, its light in a picture of the coarser one.
@@ -53,7 +73,7 @@ fn from_coarser(coarse: texture_2d<f32>, pixel: vec2f) -> LuminanceXyzv {
 // What this level and all coarser ones spread.
 @fragment
 fn spread(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
-    let here = textureLoad(picture, vec2u(pixel.xy), 0);
+    let here = luminance(vec2u(pixel.xy));
     return step.share * here + step.coarser * from_coarser(coarser, pixel.xy);
 }
 
@@ -65,9 +85,18 @@ struct SpreadAndBlurred {
 // The same, and the picture as fine as the eye resolves it here.
 @fragment
 fn spread_and_blurred(@builtin(position) pixel: vec4f) -> SpreadAndBlurred {
-    let here = textureLoad(picture, vec2u(pixel.xy), 0);
+    let here = luminance(vec2u(pixel.xy));
     let spread = step.share * here + step.coarser * from_coarser(coarser, pixel.xy);
     let coarse = from_coarser(blurred, pixel.xy);
     let lost = clamp(level_resolved(levels_resolved, between, coarse) - step.level, 0.0, 1.0);
     return SpreadAndBlurred(spread, mix(here, coarse, lost));
+}
+
+@group(0) @binding(6) var shown: texture_2d<f32>;
+
+// What is shown where the eye resolves no more than this level: linear X, Y and Z, and the grain.
+@fragment
+fn seen(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let up = spread_and_blurred(pixel);
+    return seen_of(shown, between, step.in_place * up.blurred + up.spread);
 }

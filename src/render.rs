@@ -10,6 +10,7 @@ pub mod uniforms;
 
 mod discs;
 mod eye;
+mod eye_tiles;
 mod globe;
 mod globe_maps;
 mod milky_way;
@@ -22,7 +23,8 @@ mod target;
 use std::sync::OnceLock;
 
 use crate::display::Display;
-use crate::eye::{Eye, Seeing};
+use crate::eye::Eye;
+use crate::eye::seeing::Seeing;
 use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
 use crate::plan::{FramePlan, SkyPlan};
@@ -103,8 +105,8 @@ impl Renderer {
         let size_px = [camera.width_px, camera.height_px];
         let picture = PictureTarget::new(&self.gpu, size_px, depth, display.space);
         let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
-        let seeing =
-            pass.picture(&mut frame, &plan.splats, eye, display, camera, &picture)?;
+        let scene = eye::Scene { eye, display, camera, points: &plan.splats };
+        let seeing = pass.picture(&mut frame, &scene, &picture)?;
         let finished = frame.finish()?;
         Ok(Looked { picture: picture.read(&self.gpu)?, seeing, times: finished.times })
     }

@@ -28,3 +28,9 @@ fn at_light(table: texture_2d<f32>, between: sampler, light: LuminanceXyzv) -> v
 fn level_resolved(levels: texture_2d<f32>, between: sampler, light: LuminanceXyzv) -> f32 {
     return textureSampleLevel(levels, between, vec2f(light_column(light), 0.5), 0.0).x;
 }
+
+// Given the light on the retina, what is shown of it: X, Y and Z in shares of the screen's peak.
+fn seen_of(shown: texture_2d<f32>, between: sampler, light: LuminanceXyzv) -> vec4f {
+    let by = at_light(shown, between, light);
+    return vec4f(by.x * light.xyz + light.w * by.yzw, light.y);
+}

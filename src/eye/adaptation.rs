@@ -26,7 +26,7 @@
 //! level lags below and [`Adaptation::threshold_factor`] is 1); afterimages; age, which slows rods by
 //! some 0.02 decades per minute in ten years; that pigment bleached by a flash is not one bleached slowly.
 
-use super::threshold_cd_m2;
+use super::threshold::combined_cd_m2 as threshold_cd_m2;
 
 /// What an eye adapts to that sees nothing, cd/m2: its own noise, about that of a starless sky.
 pub const DARKEST_CD_M2: f64 = 1e-4;

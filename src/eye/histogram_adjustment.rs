@@ -20,7 +20,7 @@
 //! ends of the range are counted, theirs are not. Its linear case takes the geometric mean of white and black for
 //! `Lda`, the paper half the peak, as we do. The screen's white is shown as [`WHITE`].
 
-use super::threshold_cd_m2;
+use super::threshold::combined_cd_m2 as threshold_cd_m2;
 use super::tone_curve::{Below, Screen, ToneCurve};
 
 /// Bins of the histogram.

@@ -20,6 +20,12 @@ pub fn photopic_cd_m2(column: usize) -> f64 {
     (LOWEST_LOG2 + column as f64 / COLUMNS_PER_OCTAVE).exp2()
 }
 
+/// The column nearest to a photopic luminance, cd/m2.
+pub fn column(photopic_cd_m2: f64) -> usize {
+    let place = (photopic_cd_m2.max(1e-10).log2() - LOWEST_LOG2) * COLUMNS_PER_OCTAVE;
+    (place.round().max(0.0) as usize).min(COLUMNS - 1)
+}
+
 /// Scotopic over photopic luminance of a row.
 pub fn scotopic_ratio(row: usize) -> f64 {
     (LOWEST_RATIO_LOG2 + row as f64 / ROWS_PER_OCTAVE).exp2()

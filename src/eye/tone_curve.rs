@@ -27,7 +27,7 @@
 //! The constants of 1 to 3 are chosen, not measured. Slopes are smoothed, so that no edge shows in a gradient;
 //! this can lower the curve by up to 15 %, where the brightest would otherwise be above its place.
 
-use super::threshold_cd_m2;
+use super::threshold::combined_cd_m2 as threshold_cd_m2;
 
 /// What a screen can show.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,22 +1,40 @@
 //! The picture that an eye sees: what the retina gets of the frame, through the tables of
-//! [`Seeing`](crate::eye::Seeing), and the points of light that are not in it.
+//! [`Seeing`](crate::eye::seeing::Seeing), and the points of light that are not in it.
 
 use std::sync::{Mutex, PoisonError};
 
 use crate::camera::Camera;
 use crate::display::Display;
-use crate::eye::{Eye, Seeing, light_table};
+use crate::eye::Eye;
+use crate::eye::foveal::View;
+use crate::eye::glare::{Halo, point};
+use crate::eye::light_table;
+use crate::eye::seeing::Seeing;
 use crate::plan::Splat;
+use crate::units::Angle;
 
+use super::eye_tiles::{EyeTiles, Tile};
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, Stage};
 use super::picture::{Depth, PictureTarget};
-use super::pyramid::{Pyramid, PyramidPass, Retina, fill};
+use super::pyramid::{FINISHED_LEVELS, Pyramid, PyramidPass, Up};
 use super::shaders;
 use super::target::Target;
-use super::uniforms::{DisplayUniform, PointInstance, RetinaUniform, picture_constants};
+use super::uniforms::{
+    DisplayUniform, GrainUniform, HaloUniform, LevelUniform, PointInstance, RetinaUniform,
+    SplatInstance, picture_constants,
+};
+
+/// Edge of the picture of noise, texels; `shaders/eye.wgsl` knows it too.
+const NOISE_PX: u32 = 256;
+/// The grain is as fine as what a dark-adapted eye resolves, and no finer than a pixel.
+const GRAIN: Angle = Angle::from_arcmin(5.0);
+/// Root of the luminance at which counts vary by as much as their mean, cd/m2.
+const GRAIN_STRENGTH: f32 = 0.004;
 
 pub struct EyePass {
     pyramid: PyramidPass,
+    point_light: wgpu::RenderPipeline,
+    repeated: wgpu::Sampler,
     /// Made when first asked for, by what the picture is made of.
     pipelines: Mutex<Vec<(Kind, Pipelines)>>,
     /// The textures of the last size.
@@ -28,154 +46,293 @@ pub struct EyePass {
 struct Kind {
     display: Display,
     depth: Depth,
+    has_grain: bool,
 }
 
 #[derive(Clone)]
 struct Pipelines {
+    plain: wgpu::RenderPipeline,
     sharp: wgpu::RenderPipeline,
+    mixed: wgpu::RenderPipeline,
     soft: wgpu::RenderPipeline,
     points: wgpu::RenderPipeline,
 }
 
+/// What is drawn, and how.
+pub struct Scene<'a> {
+    pub eye: &'a Eye,
+    pub display: &'a Display,
+    pub camera: &'a Camera,
+    pub points: &'a [Splat],
+}
+
+/// One picture on its way.
+struct Work<'a> {
+    scene: &'a Scene<'a>,
+    seeing: &'a Seeing,
+    pyramid: &'a Pyramid,
+    pipelines: Pipelines,
+    picture: &'a PictureTarget,
+    retina: RetinaUniform,
+    shown: wgpu::TextureView,
+    levels_resolved: wgpu::TextureView,
+}
+
 impl EyePass {
     pub fn new(gpu: &Gpu) -> EyePass {
+        let instance = wgpu::VertexBufferLayout {
+            array_stride: size_of::<SplatInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x4],
+        };
         EyePass {
             pyramid: PyramidPass::new(gpu),
+            point_light: gpu.chain_pipeline(&Stage {
+                label: "light of points",
+                source: shaders::assembled("point-light"),
+                entries: ["vertex", "fragment"],
+                constants: &[],
+                targets: &[FRAME_FORMAT],
+                buffers: &[Some(instance)],
+                adds: true,
+            }),
+            repeated: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
+                mag_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
             pipelines: Mutex::default(),
             kept: Mutex::default(),
         }
     }
 
-    /// Makes the picture of a frame in which the points are not.
+    /// Makes the picture of a frame; the points are not in the frame unless the eye wants them there.
     pub fn picture(
         &self,
         frame: &mut Target,
-        points: &[Splat],
-        eye: &Eye,
-        display: &Display,
-        camera: &Camera,
+        scene: &Scene,
         picture: &PictureTarget,
     ) -> Result<Seeing, GpuError> {
+        let gpu = frame.gpu;
+        let camera = scene.camera;
         let size_px = [camera.width_px, camera.height_px];
+        // A poisoned lock holds whole textures or none.
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let pyramid = match kept.take() {
             Some(pyramid) if pyramid.size_px() == size_px => kept.insert(pyramid),
-            _ => kept.insert(Pyramid::new(frame.gpu, size_px)),
+            _ => kept.insert(Pyramid::new(gpu, size_px)),
         };
-        self.pyramid.down(frame, pyramid);
-        let level = eye.foveal_level(camera.pixel_angle()).min(pyramid.len());
-        let foveal = pyramid.read(frame, level)?;
-        let seeing = eye.seeing(&foveal, level, size_px, camera.pixel_angle(), display);
+        let view = View::new(size_px, camera.pixel_angle());
+        let with_points = match scene.eye.wants_points_in_frame() {
+            true => None,
+            false => Some(point::wide_level(view.pixel, pyramid.len())).filter(|level| *level > 0),
+        };
+        let joined = with_points.unwrap_or(pyramid.len());
+        self.pyramid.down(frame, pyramid, 1..=joined);
+        if with_points.is_some() {
+            self.point_light(frame, scene, pyramid, joined);
+        }
+        self.pyramid.down(frame, pyramid, joined + 1..=pyramid.len());
+        let gathered = pyramid.read(frame, view.foveal_level())?;
+        let seeing = scene.eye.seeing(&gathered, &view, scene.display);
 
-        let gpu = frame.gpu;
-        let levels_resolved =
-            seeing.levels_resolved.as_ref().map(|levels| row_texture(gpu, levels));
-        let retina =
-            self.pyramid.up(frame, pyramid, &seeing.glare_shares, levels_resolved.as_ref());
-        let uniform = RetinaUniform {
-            in_place: (1.0 - seeing.glare_shares.iter().sum::<f64>()) as f32,
-            spread: retina.spread_share as f32,
-            size_px: size_px.map(|edge| edge as f32),
+        let tiles = EyeTiles::of(
+            size_px,
+            &seeing.foveal,
+            seeing.levels_resolved.as_deref(),
+            !seeing.glare_shares.is_empty(),
+        );
+        let kind = Kind {
+            display: *scene.display,
+            depth: picture.depth(),
+            has_grain: scene.eye.grain.is_some(),
         };
-        let uniform = bytemuck::bytes_of(&uniform);
-        let uniform = gpu.buffer("retina", uniform, wgpu::BufferUsages::UNIFORM);
-        let pipelines = self.pipelines(gpu, Kind { display: *display, depth: picture.depth() });
-        self.all(frame, &retina, &seeing, levels_resolved.as_ref(), &uniform, display, &pipelines, picture);
-        self.points(frame, points, &seeing, display, &retina, pyramid.light(1), &uniform, &pipelines, picture);
+        let around = FINISHED_LEVELS.min(pyramid.len());
+        let texels_of = |level: usize| 0.5f32.powi(level as i32);
+        let work = Work {
+            scene,
+            seeing: &seeing,
+            pyramid,
+            pipelines: self.pipelines(gpu, kind),
+            picture,
+            retina: RetinaUniform {
+                in_place: (1.0 - seeing.glare_shares.iter().sum::<f64>()) as f32,
+                spread: 1.0,
+                size_px: size_px.map(|edge| edge as f32),
+                soft_scale: texels_of(tiles.soft_level),
+                around_scale: texels_of(around),
+                pad: [0.0; 2],
+            },
+            shown: table_texture(gpu, "shown", &seeing.shown),
+            levels_resolved: row_texture(gpu, seeing.levels_resolved.as_deref().unwrap_or(&[0.0])),
+        };
+        self.pixels(frame, &work, &tiles, around);
+        if seeing.sees_points {
+            self.points(frame, &work, around);
+        }
         Ok(seeing)
     }
 
-    /// All pixels.
-    #[expect(clippy::too_many_arguments)]
-    fn all(
-        &self,
-        frame: &mut Target,
-        retina: &Retina,
-        seeing: &Seeing,
-        levels_resolved: Option<&wgpu::TextureView>,
-        uniform: &wgpu::Buffer,
-        display: &Display,
-        pipelines: &Pipelines,
-        picture: &PictureTarget,
-    ) {
+    /// Puts the light of points into a level, from where it is spread widely.
+    fn point_light(&self, frame: &mut Target, scene: &Scene, pyramid: &Pyramid, level: usize) {
+        if scene.points.is_empty() {
+            return;
+        }
+        let gpu = frame.gpu;
+        let instances: Vec<SplatInstance> = scene
+            .points
+            .iter()
+            .map(|point| SplatInstance {
+                centre_px: point.centre_px.map(|v| v as f32),
+                illuminance: point.illuminance.to_f32(),
+            })
+            .collect();
+        let bytes = bytemuck::cast_slice(&instances);
+        let instances = gpu.buffer("light of points", bytes, wgpu::BufferUsages::VERTEX);
+        let texel = scene.camera.pixel_angle().rad() * f64::from(1 << level);
+        let uniform = LevelUniform {
+            size: pyramid.level_px(level).map(|edge| edge as f32),
+            scale: 0.5f32.powi(level as i32),
+            per_lux: texel.powi(-2) as f32,
+        };
+        let bytes = bytemuck::bytes_of(&uniform);
+        let uniform = gpu.buffer("level", bytes, wgpu::BufferUsages::UNIFORM);
+        let layout = self.point_light.get_bind_group_layout(0);
+        let group = gpu.bind(&layout, &[(0, &uniform)]);
+        frame.adding_pass("light of points", pyramid.light(level), |pass| {
+            pass.set_pipeline(&self.point_light);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_vertex_buffer(0, instances.slice(..));
+            pass.draw(0..4, 0..scene.points.len() as u32);
+        });
+    }
+
+    /// All pixels, each as far as it needs.
+    fn pixels(&self, frame: &mut Target, work: &Work, tiles: &EyeTiles, around: usize) {
         let gpu = frame.gpu;
         let view = wgpu::BindingResource::TextureView;
-        let display = DisplayUniform::of(display);
-        let display = bytemuck::bytes_of(&display);
-        let display = gpu.buffer("display", display, wgpu::BufferUsages::UNIFORM);
-        let shown = table_texture(gpu, "shown", &seeing.shown);
-        let frame_view = frame.view();
-        let mut bound = vec![
-            (0, self.sampler()),
-            (1, uniform.as_entire_binding()),
-            (2, display.as_entire_binding()),
-            (3, view(&shown)),
-            (4, view(&frame_view)),
-            (5, view(retina.spread)),
-        ];
-        let pipeline = match (retina.blurred, levels_resolved) {
-            (Some(blurred), Some(levels)) => {
-                bound.extend([(6, view(blurred)), (7, view(levels))]);
-                &pipelines.soft
-            }
-            _ => &pipelines.sharp,
+        let pyramid = work.pyramid;
+        let scatters = !work.seeing.glare_shares.is_empty();
+        let up = Up {
+            shares: &work.seeing.glare_shares,
+            levels_resolved: &work.levels_resolved,
+            blurs: !(tiles.soft.is_empty() && tiles.mixed.is_empty()),
         };
-        let group = gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
-        frame.picture_pass("seeing", &[picture.codes()], |pass| fill(pass, pipeline, &group));
+        let is_whole = tiles.sharp.is_empty() && tiles.mixed.is_empty();
+        // Points look at what is around them, whatever is spread of it.
+        let finest = if is_whole { around } else { 1 };
+        if scatters || up.blurs || !work.scene.points.is_empty() {
+            self.pyramid.up(frame, pyramid, &up, (finest..=pyramid.len()).rev());
+        }
+        let coarse = match tiles.soft.is_empty() {
+            true => None,
+            false => self.pyramid.seen(frame, pyramid, &up, tiles.soft_level, &work.shown),
+        };
+        let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
+        let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
+        let display = DisplayUniform::of(work.scene.display);
+        let display = uniform("display", bytemuck::bytes_of(&display));
+        let grain = uniform("grain", bytemuck::bytes_of(&grain(work.scene)));
+        let noise = noise_texture(gpu, work.scene.eye.grain);
+        let frame_view = frame.view();
+        let everything = [
+            (0, self.pyramid.sampler()),
+            (1, retina.as_entire_binding()),
+            (2, display.as_entire_binding()),
+            (3, view(&work.shown)),
+            (4, view(&frame_view)),
+            (5, view(pyramid.spread(1))),
+            (6, view(pyramid.blurred(1))),
+            (7, view(&work.levels_resolved)),
+            (8, view(coarse.unwrap_or(&work.shown))),
+            (9, grain.as_entire_binding()),
+            (10, view(&noise)),
+            (11, wgpu::BindingResource::Sampler(&self.repeated)),
+        ];
+        let pipelines = &work.pipelines;
+        let graininess = [9, 10, 11];
+        let kinds: [(&wgpu::RenderPipeline, &[Tile], &[u32]); 4] = [
+            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4]),
+            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5]),
+            (&pipelines.mixed, &tiles.mixed, &[0, 1, 2, 3, 4, 5, 6, 7]),
+            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 8]),
+        ];
+        let draws: Vec<_> = kinds
+            .into_iter()
+            .filter(|(_, tiles, _)| !tiles.is_empty())
+            .map(|(pipeline, tiles, needed)| {
+                let bound: Vec<_> = everything
+                    .iter()
+                    .filter(|(number, _)| needed.contains(number) || graininess.contains(number))
+                    .cloned()
+                    .collect();
+                let group = gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
+                let bytes = bytemuck::cast_slice(tiles);
+                let instances = gpu.buffer("tiles", bytes, wgpu::BufferUsages::VERTEX);
+                (pipeline, group, instances, tiles.len() as u32)
+            })
+            .collect();
+        frame.picture_pass("seeing", &[work.picture.codes()], |pass| {
+            for (pipeline, group, instances, count) in &draws {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, group, &[]);
+                pass.set_vertex_buffer(0, instances.slice(..));
+                pass.draw(0..4, 0..*count);
+            }
+        });
     }
 
     /// Points of light, those that are seen.
-    #[expect(clippy::too_many_arguments)]
-    fn points(
-        &self,
-        frame: &mut Target,
-        points: &[Splat],
-        seeing: &Seeing,
-        display: &Display,
-        retina: &Retina,
-        half_frame: &wgpu::TextureView,
-        uniform: &wgpu::Buffer,
-        pipelines: &Pipelines,
-        picture: &PictureTarget,
-    ) {
-        if points.is_empty() {
+    fn points(&self, frame: &mut Target, work: &Work, around: usize) {
+        let Work { scene, seeing, pyramid, .. } = work;
+        if scene.points.is_empty() {
             return;
         }
         let gpu = frame.gpu;
         let view = wgpu::BindingResource::TextureView;
         let instance = |point: &Splat| {
-            let seen = seeing.point(point.illuminance, display);
+            let seen = seeing.point(point.illuminance, scene.display);
             PointInstance {
                 centre_px: point.centre_px.map(|v| v as f32),
                 colour: seen.colour.map(|v| v as f32),
                 illuminance: seen.illuminance_lx as f32,
             }
         };
-        let instances: Vec<PointInstance> = points.iter().map(instance).collect();
+        let instances: Vec<PointInstance> = scene.points.iter().map(instance).collect();
         let bytes = bytemuck::cast_slice(&instances);
         let instances = gpu.buffer("points", bytes, wgpu::BufferUsages::VERTEX);
         let visible = table_texture(gpu, "visible", &seeing.visible);
-        let pipeline = &pipelines.points;
+        let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
+        let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
+        let rows = halo_rows(seeing.halo.as_ref());
+        let halo = HaloUniform {
+            core: seeing.halo.as_ref().map_or(1.0, |halo| halo.parts(None).core) as f32,
+            rows_per_octave: point::PER_OCTAVE as f32,
+            first_log2_px: point::FIRST_PX.log2() as f32,
+            rows: rows.len() as f32,
+        };
+        let halo = uniform("halo", bytemuck::bytes_of(&halo));
+        let rows = row_texture(gpu, &rows);
+        let pipeline = &work.pipelines.points;
         let group = gpu.bind_mixed(
             &pipeline.get_bind_group_layout(0),
             &[
-                (0, self.sampler()),
-                (1, uniform.as_entire_binding()),
-                (2, view(&visible)),
-                (3, view(retina.spread)),
-                (4, view(half_frame)),
+                (0, self.pyramid.sampler()),
+                (1, retina.as_entire_binding()),
+                (2, halo.as_entire_binding()),
+                (3, view(&visible)),
+                (4, view(pyramid.light(around))),
+                (5, view(pyramid.spread(around))),
+                (6, view(&rows)),
             ],
         );
-        frame.adding_pass("points", picture.light(), |pass| {
+        frame.adding_pass("points", work.picture.light(), |pass| {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.set_vertex_buffer(0, instances.slice(..));
-            pass.draw(0..4, 0..points.len() as u32);
+            pass.draw(0..4, 0..scene.points.len() as u32);
         });
-    }
-
-    fn sampler(&self) -> wgpu::BindingResource<'_> {
-        wgpu::BindingResource::Sampler(&self.pyramid.between)
     }
 
     fn pipelines(&self, gpu: &Gpu, kind: Kind) -> Pipelines {
@@ -184,15 +341,22 @@ impl EyePass {
         if let Some((_, pipelines)) = made.iter().find(|(known, _)| *known == kind) {
             return pipelines.clone();
         }
-        let constants = picture_constants(&kind.display, kind.depth);
-        let all = |entry| {
+        let mut constants = picture_constants(&kind.display, kind.depth).to_vec();
+        constants.push(("HAS_GRAIN", f64::from(u8::from(kind.has_grain))));
+        let tile = wgpu::VertexBufferLayout {
+            array_stride: size_of::<Tile>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Uint32x4],
+        };
+        let pixels = |entry| {
             gpu.chain_pipeline(&Stage {
                 label: "seeing",
                 source: shaders::assembled("eye"),
                 entries: ["vertex", entry],
                 constants: &constants,
                 targets: &[kind.depth.codes_format()],
-                buffers: &[],
+                buffers: &[Some(tile.clone())],
+                adds: false,
             })
         };
         let instance = wgpu::VertexBufferLayout {
@@ -207,11 +371,62 @@ impl EyePass {
             constants: &[],
             targets: &[kind.depth.light_format(kind.display.space)],
             buffers: &[Some(instance)],
+            adds: true,
         });
-        let pipelines = Pipelines { sharp: all("sharp"), soft: all("soft"), points };
+        let pipelines = Pipelines {
+            plain: pixels("plain"),
+            sharp: pixels("sharp"),
+            mixed: pixels("mixed"),
+            soft: pixels("soft"),
+            points,
+        };
         made.push((kind, pipelines.clone()));
         pipelines
     }
+}
+
+/// Light of the halo per square pixel, by rows of the radius; none without a halo.
+fn halo_rows(halo: Option<&Halo>) -> Vec<f32> {
+    let rows = halo.map_or(&[] as &[f64], Halo::table);
+    let rows: Vec<f32> = rows.iter().map(|&light| light as f32).collect();
+    if rows.is_empty() { vec![0.0] } else { rows }
+}
+
+fn grain(scene: &Scene) -> GrainUniform {
+    GrainUniform {
+        place: [0.0; 2],
+        size_px: (GRAIN.rad() / scene.camera.pixel_angle().rad()).max(1.0) as f32,
+        strength: GRAIN_STRENGTH,
+    }
+}
+
+/// Even noise of a mean of zero and a variance of one, from a seed; a single grey texel without.
+fn noise_texture(gpu: &Gpu, seed: Option<u64>) -> wgpu::TextureView {
+    let edge = if seed.is_some() { NOISE_PX } else { 1 };
+    let texels: Vec<f32> = match seed {
+        None => vec![0.0],
+        Some(seed) => (0..u64::from(edge * edge)).map(|n| normal(seed, n) as f32).collect(),
+    };
+    let size = wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 1 };
+    let format = wgpu::TextureFormat::R32Float;
+    let texture = gpu.texture_of("noise", size, format, bytemuck::cast_slice(&texels));
+    texture.create_view(&Default::default())
+}
+
+/// A sum of twelve even numbers less six: nearly normal.
+fn normal(seed: u64, number: u64) -> f64 {
+    let mut state = seed ^ number.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let sum: f64 = (0..12)
+        .map(|_| {
+            // SplitMix64 (Steele, Lea & Flood 2014).
+            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mut z = state;
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        })
+        .sum();
+    sum - 6.0
 }
 
 /// A table over light.
@@ -225,10 +440,10 @@ fn table_texture(gpu: &Gpu, label: &str, table: &[[f32; 4]]) -> wgpu::TextureVie
     texture.create_view(&Default::default())
 }
 
-/// A table over the luminance of light.
+/// A table in one row.
 fn row_texture(gpu: &Gpu, row: &[f32]) -> wgpu::TextureView {
     let size = wgpu::Extent3d { width: row.len() as u32, height: 1, depth_or_array_layers: 1 };
     let format = wgpu::TextureFormat::R32Float;
-    let texture = gpu.texture_of("levels resolved", size, format, bytemuck::cast_slice(row));
+    let texture = gpu.texture_of("row", size, format, bytemuck::cast_slice(row));
     texture.create_view(&Default::default())
 }

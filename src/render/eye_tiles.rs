@@ -4,7 +4,8 @@
 //! made at that resolution; where it resolves all and nothing bright is near, the frame is shown as it is.
 //! Only what remains goes the whole way.
 
-use crate::eye::Foveal;
+use crate::eye::foveal::Foveal;
+use crate::eye::light_table;
 
 /// Edge of a tile, pixels.
 const TILE_PX: u32 = 64;
@@ -13,47 +14,62 @@ const UNSEEN_GLARE: f64 = 0.004;
 /// The coarsest level that a dark picture is made at.
 const SOFTEST: usize = 2;
 
-/// Tiles of a picture: left, top, right and bottom, pixels.
+/// A tile of a picture: left, top, right and bottom, pixels.
+pub type Tile = [u32; 4];
+
+/// The tiles of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EyeTiles {
-    /// Resolved no finer than the picture at `soft_level`.
-    pub soft: Vec<[u32; 4]>,
-    /// 1 or 2.
+    /// Resolved no finer than the picture at `soft_level`, 1 or 2.
+    pub soft: Vec<Tile>,
     pub soft_level: usize,
     /// All that the frame holds is resolved, and glare adds nothing.
-    pub plain: Vec<[u32; 4]>,
-    /// Everything else.
-    pub full: Vec<[u32; 4]>,
+    pub plain: Vec<Tile>,
+    /// All is resolved.
+    pub sharp: Vec<Tile>,
+    /// Some is.
+    pub mixed: Vec<Tile>,
 }
 
 impl EyeTiles {
-    /// Tiles of a picture, from what falls on the fovea as it looks around.
-    pub fn of(size_px: [u32; 2], foveal: &Foveal, loses_detail: bool) -> EyeTiles {
+    /// Tiles of a picture, from what falls on the fovea and from what is resolved by its light.
+    pub fn of(
+        size_px: [u32; 2],
+        foveal: &Foveal,
+        levels_resolved: Option<&[f32]>,
+        scatters: bool,
+    ) -> EyeTiles {
+        let resolved = |photopic_cd_m2: f64| {
+            let column = light_table::column(photopic_cd_m2);
+            levels_resolved.map_or(0.0, |levels| f64::from(levels[column]))
+        };
         let mut tiles = EyeTiles { soft_level: SOFTEST.min(foveal.level), ..EyeTiles::default() };
-        let mut soft = Vec::new();
+        let mut finest_of_soft = f64::INFINITY;
         for y in (0..size_px[1]).step_by(TILE_PX as usize) {
             for x in (0..size_px[0]).step_by(TILE_PX as usize) {
-                let tile =
-                    [x, y, (x + TILE_PX).min(size_px[0]), (y + TILE_PX).min(size_px[1])];
-                let [mut finest, mut coarsest, mut glare] = [f64::INFINITY, 0.0f64, 0.0f64];
-                for cell in foveal.cells_around(tile) {
-                    finest = finest.min(cell.level_resolved);
-                    coarsest = coarsest.max(cell.level_resolved);
+                let tile = [x, y, (x + TILE_PX).min(size_px[0]), (y + TILE_PX).min(size_px[1])];
+                let [mut darkest, mut brightest, mut glare] = [f64::INFINITY, 0.0f64, 0.0f64];
+                for cell in foveal.around(tile) {
+                    darkest = darkest.min(cell.light[0]);
+                    brightest = brightest.max(cell.light[0]);
                     glare = glare.max(cell.glare);
                 }
-                if loses_detail && finest >= 1.0 {
-                    soft.push((tile, finest));
-                } else if glare < UNSEEN_GLARE && (!loses_detail || coarsest <= 0.0) {
-                    tiles.plain.push(tile);
+                let finest = resolved(brightest);
+                if finest >= 1.0 {
+                    finest_of_soft = finest_of_soft.min(finest);
+                    tiles.soft.push(tile);
+                } else if resolved(darkest) > 0.0 {
+                    tiles.mixed.push(tile);
+                } else if scatters && glare >= UNSEEN_GLARE {
+                    tiles.sharp.push(tile);
                 } else {
-                    tiles.full.push(tile);
+                    tiles.plain.push(tile);
                 }
             }
         }
-        if soft.iter().any(|(_, finest)| *finest < tiles.soft_level as f64) {
+        if finest_of_soft < tiles.soft_level as f64 {
             tiles.soft_level = 1;
         }
-        tiles.soft = soft.into_iter().map(|(tile, _)| tile).collect();
         tiles
     }
 }

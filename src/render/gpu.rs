@@ -76,8 +76,7 @@ const ADD: wgpu::BlendState = {
     wgpu::BlendState { color: add, alpha: add }
 };
 
-/// A step from pictures to pictures: over all pixels, or, with vertex buffers, in quads that are added to
-/// what is there.
+/// A step from pictures to pictures: over all pixels, or, with vertex buffers, in quads.
 pub struct Stage<'a> {
     pub label: &'a str,
     pub source: String,
@@ -87,6 +86,8 @@ pub struct Stage<'a> {
     pub constants: &'a [(&'a str, f64)],
     pub targets: &'a [wgpu::TextureFormat],
     pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    /// Whether it adds to what is there.
+    pub adds: bool,
 }
 
 /// The device and its queue.
@@ -342,10 +343,8 @@ impl Gpu {
     /// A pipeline over whole pictures, or of points on them.
     pub fn chain_pipeline(&self, stage: &Stage) -> wgpu::RenderPipeline {
         let module = self.module(stage.label, &stage.source);
-        let compilation_options = wgpu::PipelineCompilationOptions {
-            constants: stage.constants,
-            ..Default::default()
-        };
+        let compilation_options =
+            wgpu::PipelineCompilationOptions { constants: stage.constants, ..Default::default() };
         let topology = match stage.buffers {
             [] => wgpu::PrimitiveTopology::TriangleList,
             _ => wgpu::PrimitiveTopology::TriangleStrip,
@@ -354,7 +353,7 @@ impl Gpu {
             .targets
             .iter()
             .map(|&format| {
-                let blend = (!stage.buffers.is_empty()).then_some(ADD);
+                let blend = stage.adds.then_some(ADD);
                 let write_mask = wgpu::ColorWrites::ALL;
                 Some(wgpu::ColorTargetState { format, blend, write_mask })
             })

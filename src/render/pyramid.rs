@@ -2,8 +2,9 @@
 //! what it does not resolve.
 //!
 //! The steps down and up keep the sum of the light whatever the size of the picture, and keep an even
-//! picture even: `shaders/pyramid.wgsl`. Their twin on the CPU is `eye::glare`.
+//! picture even. Their twin on the CPU is [`scattered_by`](crate::eye::glare::scattered_by).
 
+use crate::eye::glare::pyramid::{level_count, places_within};
 use crate::image::HdrFrame;
 
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, Stage};
@@ -11,8 +12,8 @@ use super::shaders;
 use super::target::{self, Target};
 use super::uniforms::PyramidStepUniform;
 
-/// Pixels of the longer edge of the coarsest level, at most.
-const COARSEST_PX: u32 = 3;
+/// A picture can be finished at these levels: 1 and 2.
+pub const FINISHED_LEVELS: usize = 2;
 
 /// The pipelines of the steps.
 pub struct PyramidPass {
@@ -20,18 +21,23 @@ pub struct PyramidPass {
     halved: wgpu::RenderPipeline,
     spread: wgpu::RenderPipeline,
     spread_and_blurred: wgpu::RenderPipeline,
+    seen: wgpu::RenderPipeline,
     pub between: wgpu::Sampler,
 }
 
 /// A level of the pyramid.
 struct Level {
     texture: wgpu::Texture,
-    /// The light of the frame.
+    /// The light of the frame, as much of it as there is in the place of a texel.
     light: wgpu::TextureView,
-    /// What this level and the coarser ones spread; none on the coarsest.
-    spread: Option<wgpu::TextureView>,
-    /// The light as fine as the eye resolves it; none on the coarsest.
-    blurred: Option<wgpu::TextureView>,
+    /// What this level and the coarser ones spread, cd/m2.
+    spread: wgpu::TextureView,
+    /// The light as fine as the eye resolves it, cd/m2.
+    blurred: wgpu::TextureView,
+    /// What is shown where no more is resolved; of the finest levels alone.
+    seen: Option<wgpu::TextureView>,
+    /// How much of the last three texels of each axis lies in the picture.
+    within: [[f32; 4]; 2],
 }
 
 /// A pyramid over a frame of a size; level 1 is half as fine as the frame.
@@ -40,41 +46,39 @@ pub struct Pyramid {
     levels: Vec<Level>,
 }
 
-/// The upper half of the way: what the final pass reads, at half the resolution of the frame.
-pub struct Retina<'a> {
-    pub spread: &'a wgpu::TextureView,
-    /// What it is counted as.
-    pub spread_share: f64,
-    /// None when all that the frame holds is resolved.
-    pub blurred: Option<&'a wgpu::TextureView>,
+/// How the light of a pyramid goes up again.
+pub struct Up<'a> {
+    /// Of the light that each level spreads, finest first.
+    pub shares: &'a [f64],
+    /// What the eye resolves, over the columns of light.
+    pub levels_resolved: &'a wgpu::TextureView,
+    /// Whether that matters.
+    pub blurs: bool,
 }
 
 impl Pyramid {
     /// Textures for frames of a size.
     pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Pyramid {
-        let mut sizes = Vec::new();
-        let mut size = size_px;
-        while sizes.is_empty() || size[0].max(size[1]) > COARSEST_PX {
-            size = size.map(|edge| edge.div_ceil(2));
-            sizes.push(size);
-        }
-        let last = sizes.len() - 1;
-        let level = |(number, [width, height]): (usize, [u32; 2])| {
+        let count = level_count(size_px[0], size_px[1]).max(1);
+        let within = size_px.map(|edge| places_within(edge as usize, count));
+        let level = |number: usize| {
+            let [width, height] = size_px.map(|edge| edge.div_ceil(1 << number));
             let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
                 | wgpu::TextureUsages::TEXTURE_BINDING
                 | wgpu::TextureUsages::COPY_SRC;
             let made = |label| gpu.texture(label, size, FRAME_FORMAT, usage);
-            let on_the_way_up = |label| (number < last).then(|| view(&made(label)));
             let texture = made("light");
             Level {
                 light: view(&texture),
                 texture,
-                spread: on_the_way_up("spread"),
-                blurred: on_the_way_up("blurred"),
+                spread: view(&made("spread")),
+                blurred: view(&made("blurred")),
+                seen: (number <= FINISHED_LEVELS).then(|| view(&made("seen"))),
+                within: [0, 1].map(|axis: usize| last_three(&within[axis][number - 1])),
             }
         };
-        Pyramid { size_px, levels: sizes.into_iter().enumerate().map(level).collect() }
+        Pyramid { size_px, levels: (1..=count).map(level).collect() }
     }
 
     /// The size of the frames that it is for.
@@ -90,6 +94,16 @@ impl Pyramid {
     /// The light of a level, 1 to [`Pyramid::len`].
     pub fn light(&self, level: usize) -> &wgpu::TextureView {
         &self.levels[level - 1].light
+    }
+
+    /// What a level and all coarser ones spread, once it went up.
+    pub fn spread(&self, level: usize) -> &wgpu::TextureView {
+        &self.levels[level - 1].spread
+    }
+
+    /// The light of a level as far as it is resolved, once it went up.
+    pub fn blurred(&self, level: usize) -> &wgpu::TextureView {
+        &self.levels[level - 1].blurred
     }
 
     /// Size of a level, texels.
@@ -109,6 +123,12 @@ fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&Default::default())
 }
 
+/// What the shader knows of the parts of texels: all before the last three are whole.
+fn last_three(within: &[f64]) -> [f32; 4] {
+    let from_end = |back: usize| within.len().checked_sub(back).map_or(1.0, |n| within[n] as f32);
+    [from_end(3), from_end(2), from_end(1), 0.0]
+}
+
 impl PyramidPass {
     pub fn new(gpu: &Gpu) -> PyramidPass {
         let pipeline = |fragment, targets| {
@@ -119,6 +139,7 @@ impl PyramidPass {
                 constants: &[],
                 targets,
                 buffers: &[],
+                adds: false,
             })
         };
         PyramidPass {
@@ -126,82 +147,106 @@ impl PyramidPass {
             halved: pipeline("halved", &[FRAME_FORMAT]),
             spread: pipeline("spread", &[FRAME_FORMAT]),
             spread_and_blurred: pipeline("spread_and_blurred", &[FRAME_FORMAT; 2]),
+            seen: pipeline("seen", &[FRAME_FORMAT]),
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
         }
     }
 
-    /// Makes all levels of the frame.
-    pub fn down(&self, frame: &mut Target, pyramid: &Pyramid) {
-        let mut finer = frame.view();
-        for (number, level) in pyramid.levels.iter().enumerate() {
-            let (label, pipeline) = match number {
-                0 => ("half", &self.first),
-                _ => ("coarser", &self.halved),
+    /// Makes levels from the one before each of them; level 1 from the frame.
+    pub fn down(
+        &self,
+        frame: &mut Target,
+        pyramid: &Pyramid,
+        levels: impl IntoIterator<Item = usize>,
+    ) {
+        for number in levels {
+            let (label, pipeline, finer) = match number {
+                1 => ("half", &self.first, frame.view()),
+                _ => ("coarser", &self.halved, pyramid.light(number - 1).clone()),
             };
             let group = frame.gpu.bind_mixed(
                 &pipeline.get_bind_group_layout(0),
                 &[(0, self.sampler()), (1, wgpu::BindingResource::TextureView(&finer))],
             );
-            frame.picture_pass(label, &[&level.light], |pass| fill(pass, pipeline, &group));
-            finer = level.light.clone();
+            let light = pyramid.light(number).clone();
+            frame.picture_pass(label, &[&light], |pass| fill(pass, pipeline, &group));
         }
     }
 
-    /// Spreads the shares of each level, finest first, over the picture, and blurs it to what
-    /// `levels_resolved` says, if given.
-    pub fn up<'p>(
+    /// Goes up to a level, from the coarsest or from the one below it.
+    pub fn up(
+        &self,
+        frame: &mut Target,
+        pyramid: &Pyramid,
+        up: &Up,
+        levels: impl IntoIterator<Item = usize>,
+    ) {
+        for number in levels {
+            let level = &pyramid.levels[number - 1];
+            let pipeline = if up.blurs { &self.spread_and_blurred } else { &self.spread };
+            let label = if number == 1 { "retina" } else { "glare" };
+            let group = self.step_up(frame, pyramid, up, number, pipeline, None);
+            let pictures = [&level.spread, &level.blurred];
+            let pictures = if up.blurs { &pictures[..] } else { &pictures[..1] };
+            frame.picture_pass(label, pictures, |pass| fill(pass, pipeline, &group));
+        }
+    }
+
+    /// Makes a picture of what is shown at the resolution of one of the [`FINISHED_LEVELS`].
+    pub fn seen<'p>(
         &self,
         frame: &mut Target,
         pyramid: &'p Pyramid,
-        shares: &[f64],
-        levels_resolved: Option<&wgpu::TextureView>,
-    ) -> Retina<'p> {
-        let share = |level: usize| shares.get(level - 1).copied().unwrap_or(0.0);
-        let coarsest = &pyramid.levels[pyramid.levels.len() - 1];
-        let (mut spread, mut blurred) = (&coarsest.light, &coarsest.light);
-        // The coarsest spreads its light itself.
-        let mut coarser = share(pyramid.len());
-        for number in (1..pyramid.levels.len()).rev() {
-            let level = &pyramid.levels[number - 1];
-            let (Some(own_spread), Some(own_blurred)) = (&level.spread, &level.blurred) else {
-                continue;
-            };
-            let step = PyramidStepUniform {
-                share: share(number) as f32,
-                coarser: coarser as f32,
-                level: number as f32,
-                pad: 0.0,
-            };
-            let step =
-                frame.gpu.buffer("step", bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM);
-            let mut bound = vec![
-                (0, self.sampler()),
-                (1, wgpu::BindingResource::TextureView(&level.light)),
-                (2, wgpu::BindingResource::TextureView(spread)),
-                (3, step.as_entire_binding()),
-            ];
-            let label = if number == 1 { "retina" } else { "glare" };
-            match levels_resolved {
-                None => {
-                    let pipeline = &self.spread;
-                    let group = frame.gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
-                    frame.picture_pass(label, &[own_spread], |pass| fill(pass, pipeline, &group));
-                }
-                Some(resolved) => {
-                    let pipeline = &self.spread_and_blurred;
-                    bound.push((4, wgpu::BindingResource::TextureView(blurred)));
-                    bound.push((5, wgpu::BindingResource::TextureView(resolved)));
-                    let group = frame.gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
-                    let pictures = [own_spread, own_blurred];
-                    frame.picture_pass(label, &pictures, |pass| fill(pass, pipeline, &group));
-                }
-            }
-            (spread, blurred, coarser) = (own_spread, own_blurred, 1.0);
-        }
-        Retina { spread, spread_share: coarser, blurred: levels_resolved.map(|_| blurred) }
+        up: &Up,
+        level: usize,
+        shown: &wgpu::TextureView,
+    ) -> Option<&'p wgpu::TextureView> {
+        let pipeline = &self.seen;
+        let picture = pyramid.levels[level - 1].seen.as_ref()?;
+        let group = self.step_up(frame, pyramid, up, level, pipeline, Some(shown));
+        frame.picture_pass("seen", &[picture], |pass| fill(pass, pipeline, &group));
+        Some(picture)
     }
 
-    fn sampler(&self) -> wgpu::BindingResource<'_> {
+    fn step_up(
+        &self,
+        frame: &Target,
+        pyramid: &Pyramid,
+        up: &Up,
+        number: usize,
+        pipeline: &wgpu::RenderPipeline,
+        shown: Option<&wgpu::TextureView>,
+    ) -> wgpu::BindGroup {
+        let level = &pyramid.levels[number - 1];
+        let coarser = pyramid.levels.get(number);
+        let step = PyramidStepUniform {
+            share: up.shares.get(number - 1).copied().unwrap_or(0.0) as f32,
+            // Nothing is coarser than the coarsest; its blurred light is its light.
+            coarser: if coarser.is_some() { 1.0 } else { 0.0 },
+            level: number as f32,
+            in_place: (1.0 - up.shares.iter().sum::<f64>()) as f32,
+            within: level.within,
+        };
+        let step = frame.gpu.buffer("step", bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM);
+        let view = wgpu::BindingResource::TextureView;
+        let (spread, blurred) = match coarser {
+            Some(coarser) => (&coarser.spread, &coarser.blurred),
+            None => (&level.light, &level.light),
+        };
+        let mut bound = vec![
+            (0, self.sampler()),
+            (1, view(&level.light)),
+            (2, view(spread)),
+            (3, step.as_entire_binding()),
+        ];
+        if up.blurs || shown.is_some() {
+            bound.extend([(4, view(blurred)), (5, view(up.levels_resolved))]);
+        }
+        bound.extend(shown.map(|shown| (6, view(shown))));
+        frame.gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound)
+    }
+
+    pub fn sampler(&self) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Sampler(&self.between)
     }
 }

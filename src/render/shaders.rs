@@ -12,7 +12,7 @@ const RETINA: &str = include_str!("../../shaders/lib/retina.wgsl");
 const DISPLAY: &str = include_str!("../../shaders/lib/display.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 11] = [
+pub const SHADERS: [(&str, &[&str]); 12] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("milky-way", &[QUANTITIES, CAMERA, include_str!("../../shaders/milky_way.wgsl")]),
@@ -22,11 +22,22 @@ pub const SHADERS: [(&str, &[&str]); 11] = [
     ("planets", &[QUANTITIES, CAMERA, GLOBE, DISCS, include_str!("../../shaders/planet.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
     ("pyramid", &[QUANTITIES, CAMERA, LIGHT_TABLE, include_str!("../../shaders/pyramid.wgsl")]),
-    ("eye", &[QUANTITIES, CAMERA, LIGHT_TABLE, RETINA, DISPLAY, include_str!("../../shaders/eye.wgsl")]),
+    (
+        "eye",
+        &[QUANTITIES, CAMERA, LIGHT_TABLE, RETINA, DISPLAY, include_str!("../../shaders/eye.wgsl")],
+    ),
     (
         "points",
-        &[QUANTITIES, SPLAT, LIGHT_TABLE, RETINA, DISPLAY, include_str!("../../shaders/points.wgsl")],
+        &[
+            QUANTITIES,
+            SPLAT,
+            LIGHT_TABLE,
+            RETINA,
+            DISPLAY,
+            include_str!("../../shaders/points.wgsl"),
+        ],
     ),
+    ("point-light", &[QUANTITIES, include_str!("../../shaders/point_light.wgsl")]),
 ];
 
 /// The functions without bindings, for the probes that compare them with their twins.

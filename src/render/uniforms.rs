@@ -103,7 +103,8 @@ pub struct PyramidStepUniform {
     pub share: f32,
     pub coarser: f32,
     pub level: f32,
-    pub pad: f32,
+    pub in_place: f32,
+    pub within: [[f32; 4]; 2],
 }
 
 /// `Retina` of `shaders/lib/retina.wgsl`.
@@ -113,6 +114,37 @@ pub struct RetinaUniform {
     pub in_place: f32,
     pub spread: f32,
     pub size_px: [f32; 2],
+    pub soft_scale: f32,
+    pub around_scale: f32,
+    pub pad: [f32; 2],
+}
+
+/// `Grain` of `shaders/eye.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct GrainUniform {
+    pub place: [f32; 2],
+    pub size_px: f32,
+    pub strength: f32,
+}
+
+/// `Halo` of `shaders/points.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct HaloUniform {
+    pub core: f32,
+    pub rows_per_octave: f32,
+    pub first_log2_px: f32,
+    pub rows: f32,
+}
+
+/// `Level` of `shaders/point_light.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct LevelUniform {
+    pub size: [f32; 2],
+    pub scale: f32,
+    pub per_lux: f32,
 }
 
 /// A point of light for `shaders/points.wgsl`.

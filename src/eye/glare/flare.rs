@@ -18,7 +18,7 @@
 
 use std::f64::consts::PI;
 
-use crate::eye::threshold_cd_m2;
+use crate::eye::threshold::combined_cd_m2 as threshold_cd_m2;
 use crate::light::spectrum::Spectrum;
 use crate::units::Angle;
 

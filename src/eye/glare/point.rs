@@ -46,8 +46,14 @@ const FLAT_PX: f64 = 1.0;
 /// the 1/3 of a cubic B-spline, so that sums over pixels are steady.
 const SOFT_VARIANCE_PX2: f64 = 0.5;
 /// Rows of the table per factor of two in the radius, and its first radius.
-const PER_OCTAVE: usize = 20;
-const FIRST_PX: f64 = 0.0625;
+pub const PER_OCTAVE: usize = 20;
+pub const FIRST_PX: f64 = 0.0625;
+
+/// The level of a pyramid of so many, from 1, that takes the light of points; 0 if there is none.
+pub fn wide_level(pixel: Angle, levels: usize) -> usize {
+    let level = (WIDE_TEXEL_ARCMIN / pixel.arcmin()).log2().round();
+    (level.max(LEAST_LEVEL) as usize).min(levels)
+}
 
 /// How the light of a point is parted. The sum of all is 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,8 +94,7 @@ impl Halo {
         height_px: u32,
     ) -> Halo {
         let levels = level_count(width_px, height_px).min(shares.len());
-        let level = ((WIDE_TEXEL_ARCMIN / pixel.arcmin()).log2().round().max(LEAST_LEVEL) as usize)
-            .min(levels);
+        let level = wide_level(pixel, levels);
         let texel_px = (level as f64).exp2();
         let reach_px = REACH_TEXELS * texel_px;
         let wide_shares = || (1..).zip(shares).skip(level.saturating_sub(1));

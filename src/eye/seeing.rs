@@ -1,0 +1,196 @@
+//! What an eye makes of a picture, as numbers and tables for the passes that draw it.
+
+use glam::DVec3;
+
+use crate::display::{Display, srgb_slope, within_gamut};
+use crate::image::HdrFrame;
+use crate::units::{Angle, Xyzv};
+
+use super::adaptation::{Adaptation, level_cd_m2};
+use super::foveal::{Foveal, View};
+use super::glare::{Glare, Halo, shares};
+use super::limiting_magnitude::{luminance_for_rods, threshold_lx};
+use super::receptors::{Mix, mix, seen_luminance_cd_m2};
+use super::tone_curve::{Screen, ToneCurve};
+use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
+
+/// Solid angle over which the eye sees the colour of a point: some three minutes of arc across, what
+/// remains of a point on the retina (CIE 135/1's second bell).
+const POINT_SR: f64 = 7.6e-7;
+/// The highest code of 8 bits.
+const CODES: f64 = 255.0;
+
+/// What the eye makes of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seeing {
+    /// The luminance that the eye is adapted to, cd/m2.
+    pub adaptation_cd_m2: f64,
+    /// Diameter of the pupil.
+    pub pupil_mm: f64,
+    /// The picture half a degree at a time.
+    pub foveal: Foveal,
+    /// Share of the light that each level of the pyramid spreads, finest first; empty without glare.
+    pub glare_shares: Vec<f64>,
+    /// Around points of light; none without glare.
+    pub halo: Option<Halo>,
+    /// Over the columns of [`light_table`]: the level of the pyramid that is as fine as the eye resolves;
+    /// none where that does not matter.
+    pub levels_resolved: Option<Vec<f32>>,
+    /// Over light: factors of X, Y and Z and, for each of them, of V, in shares of the screen's peak.
+    pub shown: Vec<[f32; 4]>,
+    /// Over the light around: what is shown of a point, in shares of the screen's white times square
+    /// pixels for a lux; the faintest point that is seen, lux; the size of a code of the picture there.
+    pub visible: Vec<[f32; 4]>,
+    /// Whether points of light are seen as points, or as part of the frame like everything else.
+    pub sees_points: bool,
+    magnification: f64,
+    night: super::receptors::NightColour,
+}
+
+/// A point of light as it is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenPoint {
+    /// Linear shares of the screen's white, with a luminance of one.
+    pub colour: [f64; 3],
+    /// At the eye, lux.
+    pub illuminance_lx: f64,
+}
+
+impl Eye {
+    /// Whether points of light belong into the frame that it looks at.
+    pub fn wants_points_in_frame(&self) -> bool {
+        self.model == Model::Paper
+    }
+
+    /// What it makes of a picture, given the light of its foveal level as the steps down leave it.
+    pub fn seeing(&self, gathered: &HdrFrame, view: &View, display: &Display) -> Seeing {
+        let level = view.foveal_level();
+        let seen = |[photopic, scotopic]: [f64; 2]| match self.model {
+            Model::Standard => seen_luminance_cd_m2(self.night_colour, photopic, scotopic),
+            Model::Paper => photopic,
+        };
+        let samples = |foveal: &Foveal| -> Vec<(f64, f64)> {
+            foveal.cells.iter().map(|cell| (seen(cell.light), 1.0)).collect()
+        };
+        // The pupil is as wide as what is there makes it; what it scatters is part of what is seen.
+        let unveiled = Foveal::of(gathered, view, level, &[]);
+        let settled = |foveal: &Foveal| self.settled_cd_m2(&samples(foveal));
+        let pupil_mm = pupil::open_sky_mm(settled(&unveiled), self.optics.age_years);
+        let glare = match self.model {
+            Model::Standard => self.glare,
+            Model::Paper => Glare::Spencer,
+        };
+        let spread = glare.spread(&self.optics, pupil_mm);
+        let [width_px, height_px] = view.size_px;
+        let glare_shares = spread
+            .as_ref()
+            .map_or(Vec::new(), |spread| shares(spread, view.pixel, width_px, height_px));
+        let halo =
+            spread.map(|spread| Halo::new(&spread, &glare_shares, view.pixel, width_px, height_px));
+        let foveal = match glare_shares.is_empty() {
+            true => unveiled,
+            false => Foveal::of(gathered, view, level, &glare_shares),
+        };
+        let adaptation = self.adaptation(settled(&foveal));
+        let adaptation_cd_m2 = adaptation.level_cd_m2();
+        let screen = Screen::with_peak(display.peak_cd_m2);
+        let curve = match self.model {
+            Model::Standard => ToneCurve::of(&samples(&foveal), adaptation_cd_m2, screen),
+            Model::Paper => paper::curve(&samples(&foveal), screen),
+        };
+        Seeing {
+            adaptation_cd_m2,
+            pupil_mm,
+            foveal,
+            glare_shares,
+            halo,
+            levels_resolved: self.acuity.then(|| levels_resolved(view)),
+            shown: self.shown(&curve),
+            visible: self.visible(&curve, display, adaptation.threshold_factor()),
+            sees_points: !self.wants_points_in_frame(),
+            magnification: view.magnification,
+            night: self.night_colour,
+        }
+    }
+
+    /// What it is adapted to when it has long looked at this.
+    fn settled_cd_m2(&self, samples: &[(f64, f64)]) -> f64 {
+        self.adaptation_cd_m2.unwrap_or_else(|| level_cd_m2(samples))
+    }
+
+    fn adaptation(&self, to_cd_m2: f64) -> Adaptation {
+        match self.coming_from_cd_m2 {
+            Some(from) => Adaptation::settled(from).after(self.since_s, to_cd_m2),
+            None => Adaptation::settled(to_cd_m2),
+        }
+    }
+
+    fn shown(&self, curve: &ToneCurve) -> Vec<[f32; 4]> {
+        let brighter = self.exposure_stops.exp2();
+        light_table::table(|photopic, scotopic| {
+            // The paper's curve is that of the light as it comes in.
+            let (mix, seen) = match self.model {
+                Model::Standard => {
+                    let seen = seen_luminance_cd_m2(self.night_colour, photopic, scotopic);
+                    (mix(self.night_colour, photopic, scotopic), seen)
+                }
+                Model::Paper => (published_mix(photopic), photopic),
+            };
+            let gain = if seen > 0.0 { curve.shown(seen * brighter) / seen } else { 0.0 };
+            let [x, y, z] = mix.rods;
+            [mix.cones, x, y, z].map(|factor| (factor * gain) as f32)
+        })
+    }
+
+    fn visible(
+        &self,
+        curve: &ToneCurve,
+        display: &Display,
+        threshold_factor: f64,
+    ) -> Vec<[f32; 4]> {
+        let screen_pixel_sr = Angle::from_arcmin(display.pixel_arcmin).rad().powi(2);
+        light_table::table(|photopic, scotopic| {
+            let seen = seen_luminance_cd_m2(self.night_colour, photopic, scotopic);
+            let share = curve.shown(seen);
+            let faintest_lx =
+                threshold_factor * threshold_lx(luminance_for_rods(photopic, scotopic));
+            let on_screen_lx = threshold_lx(share * display.peak_cd_m2);
+            let shown = self.exposure_stops.exp2() * on_screen_lx
+                / (faintest_lx * screen_pixel_sr * display.peak_cd_m2);
+            let code = match display.space.is_encoded() {
+                true => srgb_slope(share) / CODES,
+                false => CODES.recip(),
+            };
+            [shown, faintest_lx * self.field_factor, code, 0.0].map(|value| value as f32)
+        })
+    }
+}
+
+/// Jensen et al. 2000 at their own level.
+fn published_mix(photopic_cd_m2: f64) -> Mix {
+    let cones = rods::cone_share(photopic_cd_m2);
+    Mix { cones, rods: rods::GREY_XYZ.map(|part| (1.0 - cones) * rods::GAIN * part) }
+}
+
+fn levels_resolved(view: &View) -> Vec<f32> {
+    (0..light_table::COLUMNS)
+        .map(|column| acuity::blur_level(light_table::photopic_cd_m2(column), view.pixel) as f32)
+        .collect()
+}
+
+impl Seeing {
+    /// A point of light, from its illuminance in lux.
+    pub fn point(&self, illuminance: Xyzv, display: &Display) -> SeenPoint {
+        // A telescope gathers as much more light as it magnifies, through the whole pupil.
+        let lx = illuminance * self.magnification.powi(2);
+        let [photopic, scotopic] = [lx.y, lx.v].map(|lx| lx / POINT_SR);
+        let seen = mix(self.night, photopic, scotopic).of([lx.x, lx.y, lx.z], lx.v);
+        let seen = DVec3::from_array(seen);
+        let colour = match seen.y > 0.0 {
+            // In the gamut however faint it is shown.
+            true => within_gamut(display.rgb_from_xyz() * (seen / seen.y * 1e-3), 1e-3) * 1e3,
+            false => DVec3::ZERO,
+        };
+        SeenPoint { colour: (display.shown_from_rgb() * colour).to_array(), illuminance_lx: lx.y }
+    }
+}
