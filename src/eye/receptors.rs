@@ -21,7 +21,7 @@
 //! the eye has adapted to: a bright star of a light above 4 cd/m2 at the retina has its colour by night.
 //!
 //! *Range.* Finite for all lights from 0 to 1e10 cd/m2. A light without any scotopic part, which no
-//! spectrum has, counts as having 1 % ([`LEAST_RATIO`]).
+//! spectrum has, counts as having 1 %.
 
 use serde::{Deserialize, Serialize};
 
