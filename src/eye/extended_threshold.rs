@@ -1,7 +1,7 @@
 //! The least contrast at which the naked eye sees a disc or a patch of light against a sky.
 //!
-//! *Source.* Crumey 2014, *MNRAS* 442, 2600, after Blackwell 1946: a uniform target of the area `A` is seen
-//! when its luminance exceeds the background `B` (cd/m2) by `C B`,
+//! *Source.* Crumey 2014, *MNRAS* 442, 2600, after Blackwell 1946: a uniform target of the area `A` is
+//! seen when its luminance exceeds the background `B` (cd/m2) by `C B`,
 //!
 //! `C = F ((R / A)^q + Cinf^q)^(1/q)`,
 //!

@@ -7,10 +7,10 @@
 //!
 //! *Colour.* Two models, and none:
 //!
-//! - [`NightColour::Jensen`]: X, Y, Z of the cones weighted by `s`, the blue grey of the rods by
-//!   `0.4468 (1 - s) V / Y_grey` (Jensen et al. 2000, see [`super::rods`]), all scaled to the level. They mix
-//!   chromaticities; we mix lights, as light adds. The ends are the same. Below 0.01 cd/m2 no colour
-//!   is left, as one finds under the stars.
+//! - [`NightColour::Jensen`]: X, Y, Z of the cones weighted by `s`, the blue grey of the rods, of
+//!   luminance `0.4468 V`, by `1 - s` (Jensen et al. 2000, see [`super::rods`]), all scaled to the level.
+//!   They mix chromaticities; we mix lights, as light adds. The ends are the same. Below 0.01 cd/m2 no
+//!   colour is left, as one finds under the stars.
 //! - [`NightColour::Intrusion`]: cones and rods as they weigh in the mesopic luminance, rods in the
 //!   blue-green that they have in the pathways of the cones ([`super::rod_intrusion`]). Colours live on
 //!   down to 0.005 cd/m2 and cones count for more than with Jensen, 22 % at 0.01 cd/m2.
@@ -21,7 +21,7 @@
 //! the eye has adapted to: a bright star of a light above 4 cd/m2 at the retina has its colour by night.
 //!
 //! *Range.* Finite for all lights from 0 to 1e10 cd/m2. A light without any scotopic part, which no
-//! spectrum has, counts as having 1 % ([`LEAST_RATIO`]).
+//! spectrum has, counts as having 1 %.
 
 use serde::{Deserialize, Serialize};
 

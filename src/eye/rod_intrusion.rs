@@ -33,11 +33,11 @@
 //! colour alone, per unit of luminance; how much rods add is the mesopic luminance of CIE 191.
 //! (3) Gains are those of a white light, so that the mixture is linear in X, Y, Z and V.
 //!
-//! *What comes out* is blue-green: x, y of (0.265, 0.350) in the dark, (0.264, 0.348) at 1 cd/m2. It is less blue
-//! and more green than the convention of [`super::rods`], and goes the way that was measured: rods weigh
-//! more with M than with L, "leading to a more greenish percept" at 2 to 20 td (Cao, Pokorny & Smith, *Journal
-//! of Vision*, abstract 2131691). The public formula says how far; on our scale that is far from
-//! white, and may be too far.
+//! *What comes out* is blue-green: x, y of (0.265, 0.350) in the dark, (0.264, 0.348) at 1 cd/m2. It is
+//! less blue and more green than the convention of [`super::rods`], and goes the way that was
+//! measured: rods weigh more with M than with L, "leading to a more greenish percept" at 2 to 20 td
+//! (Cao, Pokorny & Smith, *Journal of Vision*, abstract 2131691). The public formula says how far; on
+//! our scale that is far from white, and may be too far.
 
 use std::sync::LazyLock;
 
