@@ -29,7 +29,7 @@ use std::f64::consts::PI;
 
 use crate::units::Angle;
 
-use super::flare::{self, Flare};
+use super::flare::Flare;
 use super::pyramid::{level_count, smooth_kernel};
 use super::spread::Spread;
 
@@ -74,8 +74,6 @@ pub struct Halo {
     table: Vec<f64>,
     near: f64,
     wide: f64,
-    /// What of the needles lies outside the pixel of their star.
-    needles: f64,
 }
 
 impl Halo {
@@ -114,8 +112,6 @@ impl Halo {
             table,
             near: 0.0,
             wide: wide_shares().map(|(_, share)| share).sum(),
-            needles: spread.corona()
-                * flare::needles_beyond(Angle::from_rad(pixel.rad() * FLAT_PX)),
         };
         halo.near = halo.integral();
         // A halo larger than all the light there is would take more than the star gives.
@@ -134,8 +130,7 @@ impl Halo {
             let core = 1.0 - smooth_light;
             return Parts { core, near: self.near, wide: self.wide, flare: 0.0, smooth: 1.0 };
         };
-        // Needles within the core take its light, the others that of the halo.
-        let smooth = 1.0 - self.needles.min(smooth_light) / smooth_light;
+        let smooth = 1.0 - flare.needles().min(smooth_light) / smooth_light;
         let (near, wide) = (self.near * smooth, self.wide * smooth);
         let flare = flare.share();
         Parts { core: 1.0 - near - wide - flare, near, wide, flare, smooth }
@@ -259,7 +254,7 @@ mod tests {
         for arcmin in PIXELS_ARCMIN {
             for pupil_mm in [3.0, 5.0, 7.0] {
                 let (spread, _, halo) = halo(arcmin, pupil_mm);
-                let flare = Flare::new(&spread);
+                let flare = Flare::new(&spread, Angle::from_arcmin(arcmin));
                 for flare in [None, flare.as_ref()] {
                     let parts = halo.parts(flare);
                     for off in [[0.0, 0.0], [0.5, 0.5], [0.2, 0.4], [0.5, 0.0]] {
