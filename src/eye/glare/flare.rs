@@ -33,15 +33,6 @@ use super::spread::{HEMISPHERE_DEG, Shape, Spread};
 /// Texels around and along a radius.
 pub const AZIMUTHS: usize = 512;
 pub const RADII: usize = 64;
-const ROWS: [usize; RADII] = {
-    let mut rows = [0; RADII];
-    let mut n = 0;
-    while n < RADII {
-        rows[n] = n;
-        n += 1;
-    }
-    rows
-};
 /// How far the texture reaches.
 const RADIUS: Angle = Angle::from_deg(4.5);
 /// The needles end within this angle.
@@ -54,6 +45,9 @@ const FLAT_PX: f64 = 1.3;
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// Light of the flare around a point of white light, per steradian, for one unit of its light.
+///
+/// A small disc flares like a point of its illuminance; what the flare holds is then taken from the
+/// pixels of the disc.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flare {
     /// X, Y, Z and V in rows of [`AZIMUTHS`], from the centre outwards. Row `n` lies at a radius of
@@ -71,13 +65,13 @@ impl Flare {
             return None;
         }
         let height = spread.corona() / CORONA.within(HEMISPHERE_DEG);
-        let corona_rows = ROWS.map(|row| {
+        let corona_rows: [f64; RADII] = std::array::from_fn(|row| {
             let t_deg = row_radius(row as f64 + 0.5).deg();
             let flat_deg = (t_deg.powi(4) + (FLAT_PX * pixel.deg()).powi(4)).powf(0.25);
             height * CORONA.at(flat_deg) * (1.0 - (t_deg / NEEDLES_DEG).powi(2)).max(0.0)
         });
         let white = Spectrum::from_fn(|_| 1.0).xyzv();
-        let ring_rows = ROWS.map(|row| {
+        let ring_rows: [[f64; 4]; RADII] = std::array::from_fn(|row| {
             let t = row_radius(row as f64 + 0.5);
             let light = Spectrum::from_fn(|nm| spencer::halo_per_sr(t, nm)).xyzv();
             [light.x / white.x, light.y / white.y, light.z / white.z, light.v / white.v]
@@ -89,7 +83,7 @@ impl Flare {
         // The comb has a mean of 1 around each radius.
         let comb = comb();
         let mut texels = Vec::with_capacity(RADII * AZIMUTHS);
-        for row in ROWS {
+        for row in 0..RADII {
             // A pixel as a part of a turn, in texels.
             let turn = 2.0 * PI * row_radius(row as f64 + 0.5).rad();
             let pixel_texels = pixel.rad() / turn * AZIMUTHS as f64;
@@ -110,20 +104,19 @@ impl Flare {
     /// a part of a turn: bilinear between the texels, none beyond the last.
     pub fn per_sr(&self, from_source: Angle, turn: f64) -> [f64; 4] {
         let place = row_place(from_source);
-        let row = |n: usize, part: f64| {
-            let around = turn.rem_euclid(1.0) * AZIMUTHS as f64 - 0.5;
-            let before = around.floor();
-            let column = |off: i64| (before as i64 + off).rem_euclid(AZIMUTHS as i64) as usize;
-            let at = |column: usize| self.texels.get(n * AZIMUTHS + column).copied();
-            let [left, right] = [0, 1].map(|off| at(column(off)).unwrap_or([0.0; 4]));
-            let right_part = around - before;
-            std::array::from_fn::<f64, 4, _>(|channel| {
-                part * (left[channel] * (1.0 - right_part) + right[channel] * right_part)
-            })
-        };
-        let [inner, outer] =
-            [row(place as usize, 1.0 - place.fract()), row(place as usize + 1, place.fract())];
-        std::array::from_fn(|channel| inner[channel] + outer[channel])
+        let around = turn.rem_euclid(1.0) * AZIMUTHS as f64 - 0.5;
+        let column = |off: i64| (around.floor() as i64 + off).rem_euclid(AZIMUTHS as i64) as usize;
+        let [outer, right] = [place.fract(), around - around.floor()];
+        let mut sum = [0.0; 4];
+        for (row, by_row) in [(place as usize, 1.0 - outer), (place as usize + 1, outer)] {
+            for (column, by_column) in [(column(0), 1.0 - right), (column(1), right)] {
+                let texel = self.texels.get(row * AZIMUTHS + column);
+                for (sum, light) in sum.iter_mut().zip(texel.into_iter().flatten()) {
+                    *sum += by_row * by_column * light;
+                }
+            }
+        }
+        sum
     }
 
     /// How far the flare reaches from its source.
