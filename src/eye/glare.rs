@@ -20,7 +20,7 @@ use crate::units::Angle;
 
 pub use self::flare::Flare;
 pub use self::point::Halo;
-pub use self::pyramid::{scattered_by, shares};
+pub use self::pyramid::{scattered_by, scattered_with, shares};
 pub use self::spread::{Glare, Spread};
 
 /// What of an observer decides how much the eyes scatter.

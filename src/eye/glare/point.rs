@@ -9,11 +9,11 @@
 //! - the *flare* of wide pupils ([`super::flare`]), for the few points for which it can be seen.
 //!
 //! Theory: what the pyramid makes of all of a point's light from that level on is known: the sum
-//! of the shares of these levels, each over its kernel. So all of it is put in there, by
-//! [`texel_weights`], and only these shares come out. The near halo is what the spread function has
-//! beyond that. Closer than a pixel the halo is held at its value there, and the rest is the core.
-//! Core and halo are so soft that their sums over the pixels do not depend on where among them the
-//! star stands.
+//! of the shares of these levels, each over its kernel. So all of it is put in there
+//! ([`super::pyramid::Point`]), and only these shares come out. The near halo is what the spread
+//! function has beyond that. Closer than a pixel the halo is held at its value there, and the rest is
+//! the core. Core and halo are so soft that their sums over the pixels do not depend on where among
+//! them the star stands.
 //!
 //! Where the flare is drawn, the needles of the corona take light that near and wide parts would
 //! have had, in proportion to both; the ring takes its own from the core.
@@ -29,7 +29,7 @@ use std::f64::consts::PI;
 
 use crate::units::Angle;
 
-use super::flare::{self, Flare};
+use super::flare::Flare;
 use super::pyramid::{level_count, smooth_kernel};
 use super::spread::Spread;
 
@@ -80,8 +80,6 @@ pub struct Halo {
     table: Vec<f64>,
     near: f64,
     wide: f64,
-    /// What of the needles lies outside the pixel of their star.
-    needles: f64,
 }
 
 impl Halo {
@@ -119,8 +117,6 @@ impl Halo {
             table,
             near: 0.0,
             wide: wide_shares().map(|(_, share)| share).sum(),
-            needles: spread.corona()
-                * flare::needles_beyond(Angle::from_rad(pixel.rad() * FLAT_PX)),
         };
         halo.near = halo.integral();
         // A halo larger than all the light there is would take more than the star gives.
@@ -139,8 +135,7 @@ impl Halo {
             let core = 1.0 - smooth_light;
             return Parts { core, near: self.near, wide: self.wide, flare: 0.0, smooth: 1.0 };
         };
-        // Needles within the core take its light, the others that of the halo.
-        let smooth = 1.0 - self.needles.min(smooth_light) / smooth_light;
+        let smooth = 1.0 - flare.needles().min(smooth_light) / smooth_light;
         let (near, wide) = (self.near * smooth, self.wide * smooth);
         let flare = flare.share();
         Parts { core: 1.0 - near - wide - flare, near, wide, flare, smooth }
@@ -222,18 +217,6 @@ fn softened(sharp: &[f64], r_px: f64) -> f64 {
     sum / weights
 }
 
-/// Where the light of a point at `place` of an axis goes among the texels of a level: the first of
-/// three texels and their weights. Texels stand at whole numbers; those beyond an edge give their
-/// part to the last one within.
-///
-/// They are the mean of what the steps down would make of it, a quadratic B-spline.
-pub fn texel_weights(place: f64) -> (i64, [f64; 3]) {
-    let nearest = place.round();
-    let off = place - nearest;
-    let weights = [0.5 * (0.5 - off).powi(2), 0.75 - off * off, 0.5 * (0.5 + off).powi(2)];
-    (nearest as i64 - 1, weights)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,7 +247,7 @@ mod tests {
         for arcmin in PIXELS_ARCMIN {
             for pupil_mm in [3.0, 5.0, 7.0] {
                 let (spread, _, halo) = halo(arcmin, pupil_mm);
-                let flare = Flare::new(&spread);
+                let flare = Flare::new(&spread, Angle::from_arcmin(arcmin));
                 for flare in [None, flare.as_ref()] {
                     let parts = halo.parts(flare);
                     for off in [[0.0, 0.0], [0.5, 0.5], [0.2, 0.4], [0.5, 0.0]] {
@@ -296,16 +279,6 @@ mod tests {
                 assert!((0.78..1.22).contains(&ratio), "{arcmin} {r_px}: {ratio}");
                 r_px *= 1.1;
             }
-        }
-    }
-
-    #[test]
-    fn texels_share_a_point_without_moving_it() {
-        for place in [0.0, 0.3, 0.5, 7.49, 12.9] {
-            let (first, weights) = texel_weights(place);
-            let sum: f64 = weights.iter().sum();
-            let mean: f64 = (first..).zip(weights).map(|(at, weight)| at as f64 * weight).sum();
-            assert!((sum - 1.0).abs() < 1e-12 && (mean - place).abs() < 1e-12, "{place}");
         }
     }
 }

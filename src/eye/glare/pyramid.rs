@@ -225,6 +225,18 @@ fn taps(len: usize, n: usize, level: usize) -> impl Iterator<Item = (usize, f64)
     })
 }
 
+/// Where the light of a point at `place` of an axis goes among the texels of a level: the first of
+/// three texels and their weights. Texels stand at whole numbers; those beyond an edge give their
+/// part to the last one within.
+///
+/// They are the mean of what the steps down would make of it, a quadratic B-spline.
+pub fn texel_weights(place: f64) -> (i64, [f64; 3]) {
+    let nearest = place.round();
+    let off = place - nearest;
+    let weights = [0.5 * (0.5 - off).powi(2), 0.75 - off * off, 0.5 * (0.5 + off).powi(2)];
+    (nearest as i64 - 1, weights)
+}
+
 /// A level of light, row by row.
 #[derive(Clone)]
 struct Level {
@@ -259,6 +271,22 @@ impl Level {
         })
     }
 
+    /// Adds the light of a point.
+    fn join(&mut self, level: usize, point: &Point) {
+        let texel_px = (1u64 << level) as f64;
+        let ends = [self.width, self.height()].map(|texels| texels as i64 - 1);
+        let [columns, rows] = [0, 1].map(|axis| {
+            let (first, weights) = texel_weights((point.place_px[axis] + 0.5) / texel_px - 0.5);
+            let texel = move |n: usize| (first + n as i64).clamp(0, ends[axis]) as usize;
+            [0, 1, 2].map(|n| (texel(n), weights[n] / texel_px))
+        });
+        for (row, by_row) in rows {
+            for (column, by_column) in columns {
+                add(&mut self.pixels[row * self.width + column], point.light, by_row * by_column);
+            }
+        }
+    }
+
     /// Bilinear between the texels, at twice the resolution.
     fn raised(&self, x: usize, y: usize) -> [f64; 4] {
         let beside = |at: usize, len: usize| {
@@ -279,15 +307,38 @@ fn add(sum: &mut [f64; 4], light: [f64; 4], factor: f64) {
     sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += factor * light);
 }
 
+/// A point whose light joins the pyramid at one of its levels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Place in the picture; the middle of the first pixel is [0, 0].
+    pub place_px: [f64; 2],
+    /// All of its light, as the luminance of a single pixel that holds it, cd/m2.
+    pub light: [f64; 4],
+}
+
 /// A frame as it reaches the retina when level 1, 2, ... get these shares: the slow twin, in f64,
 /// of what the renderer does.
 pub fn scattered_by(frame: &HdrFrame, shares: &[f64]) -> HdrFrame {
+    scattered_with(frame, shares, 0, &[])
+}
+
+/// The same with points that join at a level, 1 or more: what wider levels make of them is added.
+pub fn scattered_with(
+    frame: &HdrFrame,
+    shares: &[f64],
+    joins_at: usize,
+    points: &[Point],
+) -> HdrFrame {
     let (width, height) = (frame.width_px() as usize, frame.height_px() as usize);
     let within = [width, height].map(|pixels| places_within(pixels, shares.len()));
     let pixels = frame.pixels().iter().map(|pixel| pixel.map(f64::from)).collect();
     let mut light = vec![Level { width, pixels }];
     for level in 1..=shares.len() {
-        light.push(light[level - 1].gathered(level));
+        let mut gathered = light[level - 1].gathered(level);
+        if level == joins_at {
+            points.iter().for_each(|point| gathered.join(level, point));
+        }
+        light.push(gathered);
     }
     let mut wider: Option<Level> = None;
     for (level, share) in shares.iter().enumerate().map(|(n, share)| (n + 1, share)).rev() {
@@ -402,6 +453,46 @@ mod tests {
                 assert_eq!(shares.len(), level_count(width, height));
                 assert!(shares.iter().all(|share| *share >= 0.0 && share.is_finite()));
                 assert!(shares.iter().sum::<f64>() <= 1.0 + 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn texels_share_a_point_without_moving_it() {
+        for place in [0.0, 0.3, 0.5, 7.49, 12.9] {
+            let (first, weights) = texel_weights(place);
+            let sum: f64 = weights.iter().sum();
+            let mean: f64 = (first..).zip(weights).map(|(at, weight)| at as f64 * weight).sum();
+            assert!((sum - 1.0).abs() < 1e-12 && (mean - place).abs() < 1e-12, "{place}");
+        }
+    }
+
+    /// Points that join at a level give what its share and those of the wider ones say, and give it
+    /// as a pixel of the frame would.
+    #[test]
+    fn points_join_the_wider_levels() {
+        let (width, height) = (517, 333);
+        let shares = day_shares(0.05, width, height);
+        let dark = Image::filled(width, height, [0.0; 4]);
+        let wide: f64 = shares[2..].iter().sum();
+        for place in [[0u32, 0], [516, 332], [300, 150], [201, 332]] {
+            let place_px = place.map(f64::from);
+            let points = [Point { place_px, light: [1.0, 2.0, 3.0, 4.0] }];
+            let joined = scattered_with(&dark, &shares, 3, &points);
+            for (sum, light) in sums(&joined).iter().zip([1.0, 2.0, 3.0, 4.0]) {
+                assert!((sum / (wide * light) - 1.0).abs() < 1e-5, "{place:?}: {sum}");
+            }
+            let mut frame = dark.clone();
+            frame.pixels_mut()[(place[1] * width + place[0]) as usize] = [1.0, 2.0, 3.0, 4.0];
+            let only_wide = shares.iter().enumerate().map(|(n, s)| if n < 2 { 0.0 } else { *s });
+            let drawn = scattered_by(&frame, &only_wide.collect::<Vec<_>>());
+            for away in [[9u32, 0], [40, 0], [40, 40], [0, 100]] {
+                let [x, y] = [0, 1].map(|axis| {
+                    let (at, end) = (place[axis], [width, height][axis]);
+                    if at + away[axis] < end { at + away[axis] } else { at - away[axis] }
+                });
+                let ratio = joined.at(x, y)[1] / drawn.at(x, y)[1];
+                assert!((0.85..1.15).contains(&ratio), "{place:?} {away:?}: {ratio}");
             }
         }
     }
