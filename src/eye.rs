@@ -13,15 +13,19 @@
 //! adaptation takes are not here yet.
 
 pub mod acuity;
+pub mod adaptation;
 pub mod extended_threshold;
 pub mod glare;
+pub mod histogram_adjustment;
 pub mod limiting_magnitude;
 pub mod mesopic;
+pub mod paper;
 pub mod pupil;
 pub mod receptors;
 pub mod rod_intrusion;
 pub mod rods;
 pub mod threshold;
+pub mod tone_curve;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
