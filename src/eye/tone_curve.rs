@@ -24,6 +24,10 @@
 //!    (smaller than a sample) approaches the peak and never reaches it. Below the darkest sample the
 //!    curve is linear, down to 0 at 0. What is too dark to be told from black takes no part in 2.
 //!
+//! *Left out.* The retina adapts in each place on its own; here what is far from `La` keeps its contrast in its
+//! own place of the range instead, so that for the seconds in which an eye of night looks at
+//! a day, the day is pale and not all white. The screen is taken to be seen in the dark.
+//!
 //! The constants of 1 to 3 are chosen, not measured. Slopes are smoothed, so that no edge shows in a gradient;
 //! this can lower the curve by up to 15 %, where the brightest would otherwise be above its place.
 
@@ -361,6 +365,10 @@ impl Side {
 
     /// The slopes that fill the room, or 1 if all fits.
     fn slopes(&self, room: f64) -> Vec<f64> {
+        let range: f64 = self.cells.iter().map(|(length, _)| length).sum();
+        if range <= room {
+            return vec![1.0; self.cells.len()];
+        }
         let scale = fitting_scale(&self.cells, room);
         self.cells.iter().map(|(_, weight)| (scale * weight).clamp(LEAST_SLOPE, 1.0)).collect()
     }
@@ -400,14 +408,11 @@ fn slopes(histogram: &Histogram, anchor: Anchor, screen: Screen) -> (Vec<f64>, f
     (slopes, anchor.shown - lower)
 }
 
-/// The scale of the slopes with which cells (length, share) fill the room; infinite if all fit at slope 1.
+/// The scale of the slopes with which cells (length, weight) fill the room.
 fn fitting_scale(cells: &[(f64, f64)], room: f64) -> f64 {
     let filled = |scale: f64| -> f64 {
-        cells.iter().map(|(length, share)| length * (scale * share).min(1.0)).sum()
+        cells.iter().map(|(length, weight)| length * (scale * weight).min(1.0)).sum()
     };
-    if cells.iter().map(|(length, _)| length).sum::<f64>() <= room {
-        return f64::INFINITY;
-    }
     let (mut low, mut high) = (-12.0, 40.0f64);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
