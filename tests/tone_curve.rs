@@ -8,7 +8,7 @@ use nocturne::eye::tone_curve::{Screen, ToneCurve, anchor_cd_m2};
 const SCREEN: Screen = Screen::with_peak(100.0);
 
 /// Luminances evenly spread in the logarithm over a range, each of weight 1.
-fn spread(from: f64, to: f64, count: usize) -> Vec<(f64, f64)> {
+fn spread(from: f64, to: f64, count: usize) -> Samples {
     let at = |i| from * (to / from).powf((i as f64 + 0.5) / count as f64);
     (0..count).map(|i| (at(i), 1.0)).collect()
 }
@@ -104,8 +104,11 @@ fn the_moon_shows_her_seas_over_a_sky_that_stays() {
     }
 }
 
+/// Luminances in cd/m2 and their weights.
+type Samples = Vec<(f64, f64)>;
+
 /// Scenes of all kinds, and what the eye is adapted to in them, cd/m2.
-fn scenes() -> Vec<(&'static str, Vec<(f64, f64)>, f64)> {
+fn scenes() -> Vec<(&'static str, Samples, f64)> {
     let with = |mut samples: Vec<(f64, f64)>, more: &[(f64, f64)]| {
         samples.extend_from_slice(more);
         samples

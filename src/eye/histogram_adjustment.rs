@@ -93,7 +93,7 @@ impl Scene {
         let logs: Vec<(f64, f64)> =
             lit.map(|&(luminance, weight)| (luminance.clamp(least, most).ln(), weight)).collect();
         let total: f64 = logs.iter().map(|(_, weight)| weight).sum();
-        if !(total > 0.0) {
+        if total <= 0.0 || !total.is_finite() {
             return None;
         }
         let lowest = logs.iter().fold(f64::INFINITY, |low, (log, _)| low.min(*log));

@@ -29,7 +29,7 @@
 //! a day, the day is pale and not all white. The screen is taken to be seen in the dark.
 //!
 //! The constants of 1 to 3 are chosen, not measured. Slopes are smoothed, so that no edge shows in a gradient;
-//! this can lower the curve by up to 15 %, where the brightest would otherwise be above its place.
+//! this can lower the curve by up to 10 %, where the brightest would otherwise be above its place.
 
 use super::threshold::never_falling_cd_m2 as threshold_cd_m2;
 
