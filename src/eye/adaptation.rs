@@ -7,15 +7,15 @@
 //! *Time.* [`Adaptation`] has three parts, each the exact solution of its equation while the scene stays,
 //! so that the steps of time do not matter:
 //!
-//! - *Neural*, and the pupil: the logarithm of the level follows the scene exponentially, in [`BRIGHTER_S`] or
-//!   [`DARKER_S`]. It stands for the fast processes of Pattanaik et al. 2000 (*SIGGRAPH*, 47), which take
+//! - *Neural*, and the pupil: the logarithm of the level follows the scene exponentially, in `BRIGHTER_S` or
+//!   `DARKER_S`. It stands for the fast processes of Pattanaik et al. 2000 (*SIGGRAPH*, 47), which take
 //!   0.08 s in cones and 0.15 s in rods (recalled), and the pupil, which takes seconds.
 //! - *Cones*: the bleached share `B` of their pigment, `dB/dt = [(1 - B) L/L0 - B] / t0` (Rushton & Henry
-//!   1968, *Vision Res.* 8, 617). In the dark the logarithm of their threshold is [`CONES_RAISED`] `B` above its
+//!   1968, *Vision Res.* 8, 617). In the dark the logarithm of their threshold is `CONES_RAISED` `B` above its
 //!   least (Dowling-Rushton; recalled), and falls in two minutes to a third.
 //! - *Rods*: pigment bleaches likewise but comes back otherwise: by Lamb & Pugh 2004 (*Prog. Retin. Eye Res.*
 //!   23, 307) the free opsin raises the threshold in proportion, and it falls evenly in the logarithm,
-//!   by [`S2_PER_MINUTE`] per minute and in the end by [`S3_PER_MINUTE`] (S2 and S3; S3 recalled).
+//!   by `S2_PER_MINUTE` per minute and in the end by `S3_PER_MINUTE` (S2 and S3; S3 recalled).
 //!
 //! The threshold is that of the better of rods and cones, each the greater of its settled threshold at the neural
 //! level and of what is left by the bleaching. After a full bleach the rods take over at 7.8 minutes

@@ -11,14 +11,14 @@
 //!
 //! `f(b) <= [dLt(Ld) / dLt(L)] T db L / ((ln Ldmax - ln Ldmin) Ld)`.
 //!
-//! What is above is trimmed, and all is done anew until no more than [`TOLERANCE`] of the samples is trimmed at
+//! What is above is trimmed, and all is done anew until no more than `TOLERANCE` of the samples is trimmed at
 //! once. If as little is left of them all, or the scene's range is no more than the screen's, the scene is shown
 //! in proportion, by the scale of Ward 1994: `dLt(Lda) / dLt(La)`, `Lda` half the peak, `La` the
 //! samples' logarithmic mean.
 //!
 //! *How we differ.* Nothing is random: `pcond` adds samples at random points. Samples at the very
 //! ends of the range are counted, theirs are not. Its linear case takes the geometric mean of white and black for
-//! `Lda`, the paper half the peak, as we do. The screen's white is shown as [`WHITE`].
+//! `Lda`, the paper half the peak, as we do. The screen's white is shown as `WHITE`.
 
 use super::threshold::combined_cd_m2 as threshold_cd_m2;
 use super::tone_curve::{Below, Screen, ToneCurve};

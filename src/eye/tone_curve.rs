@@ -11,16 +11,16 @@
 //! day, and frames of a film would flicker. [`ToneCurve::of`] is continuous in all its input, and absolute:
 //!
 //! 1. *Anchor.* `La` is shown at [`anchor_cd_m2`]. Ward's product is level where Weber's law holds, so that
-//!    noon and dusk would look the same; we keep [`VISIBILITY`] of its range in the logarithm, and add the
-//!    power [`BRIGHTNESS`] of the luminance. Chosen so that a moonless sky is just above a screen's black,
+//!    noon and dusk would look the same; we keep `VISIBILITY` of its range in the logarithm, and add the
+//!    power `BRIGHTNESS` of the luminance. Chosen so that a moonless sky is just above a screen's black,
 //!    0.3 cd/m2 of 100, and noon is where Ward has it, at 55. By day ten times the light is shown 12 % brighter.
 //! 2. *Slope.* In the logarithm the slope is at most 1: contrast is never exaggerated, and what fits is shown
 //!    linearly. What does not fit, above the anchor or below, is given the slopes `min(1, kappa p^GAMMA)`, where
 //!    `p` is the share of the picture per e-fold of luminance, and `kappa` is such that it just fits.
-//!    The small [`GAMMA`] is because one looks at what is bright however small it is: the Moon
-//!    is one part of thousands and still has her seas. Where nothing is, `p` is [`EMPTY`]. Where
-//!    much of the picture would be flattened so, the anchor gives way ([`YIELDING`]).
-//! 3. *Ends.* The brightest sample is shown at [`TOP_SHARE`] of the peak or below; what is brighter
+//!    The small `GAMMA` is because one looks at what is bright however small it is: the Moon
+//!    is one part of thousands and still has her seas. Where nothing is, `p` is `EMPTY`. Where
+//!    much of the picture would be flattened so, the anchor gives way (`YIELDING`).
+//! 3. *Ends.* The brightest sample is shown at `TOP_SHARE` of the peak or below; what is brighter
 //!    (smaller than a sample) approaches the peak and never reaches it. Below the darkest sample the
 //!    curve is linear, down to 0 at 0. What is too dark to be told from black takes no part in 2.
 //!
