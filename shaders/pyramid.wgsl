@@ -85,9 +85,13 @@ struct SpreadAndBlurred {
 // The same, and the picture as fine as the eye resolves it here.
 @fragment
 fn spread_and_blurred(@builtin(position) pixel: vec4f) -> SpreadAndBlurred {
-    let here = luminance(vec2u(pixel.xy));
-    let spread = step.share * here + step.coarser * from_coarser(coarser, pixel.xy);
-    let coarse = from_coarser(blurred, pixel.xy);
+    return stepped_up(pixel.xy);
+}
+
+fn stepped_up(pixel: vec2f) -> SpreadAndBlurred {
+    let here = luminance(vec2u(pixel));
+    let spread = step.share * here + step.coarser * from_coarser(coarser, pixel);
+    let coarse = from_coarser(blurred, pixel);
     let lost = clamp(level_resolved(levels_resolved, between, coarse) - step.level, 0.0, 1.0);
     return SpreadAndBlurred(spread, mix(here, coarse, lost));
 }
@@ -97,6 +101,6 @@ fn spread_and_blurred(@builtin(position) pixel: vec4f) -> SpreadAndBlurred {
 // What is shown where the eye resolves no more than this level: linear X, Y and Z, and the grain.
 @fragment
 fn seen(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let up = spread_and_blurred(pixel);
+    let up = stepped_up(pixel.xy);
     return seen_of(shown, between, step.in_place * up.blurred + up.spread);
 }
