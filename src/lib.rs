@@ -56,6 +56,7 @@ pub mod almanac;
 
 // What lies between, how bright things shine, and what an eye makes of it.
 pub mod air;
+pub mod display;
 pub mod eye;
 pub mod light;
 

@@ -8,8 +8,8 @@ use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, GlobeUniform, MeshBandUniform, PlanetUniform,
-    RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, MeshBandUniform,
+    PlanetUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -62,6 +62,8 @@ fn uniforms_have_one_layout_on_both_sides() {
         SkyUniform,
         [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
     );
+    let library = parsed("library", &LIBRARY.join("\n"));
+    same_layout!(library, "Display", DisplayUniform, [rgb_from_xyz, shown_from_rgb]);
     let globe = parsed("globe", &assembled("globe"));
     same_layout!(
         globe,

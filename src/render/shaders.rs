@@ -6,6 +6,7 @@ const SKYLIGHT: &str = include_str!("../../shaders/skylight.wgsl");
 const GLOBE: &str = include_str!("../../shaders/lib/globe.wgsl");
 const DISCS: &str = include_str!("../../shaders/discs.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
+const DISPLAY: &str = include_str!("../../shaders/lib/display.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
 pub const SHADERS: [(&str, &[&str]); 8] = [
@@ -20,7 +21,7 @@ pub const SHADERS: [(&str, &[&str]); 8] = [
 ];
 
 /// The functions without bindings, for the probes that compare them with their twins.
-pub const LIBRARY: &[&str] = &[QUANTITIES, CAMERA, SPLAT];
+pub const LIBRARY: &[&str] = &[QUANTITIES, CAMERA, SPLAT, DISPLAY];
 
 /// The whole text of a shader.
 pub fn assembled(pass: &str) -> String {

@@ -10,6 +10,7 @@ use glam::DMat3;
 
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
+use crate::display::Display;
 use crate::frame::{Apparent, Dir, Horizon};
 use crate::light::belts;
 use crate::light::disc_light::disc_axes;
@@ -30,6 +31,30 @@ pub struct CameraUniform {
     pub size_px: [f32; 2],
     pub focal_px: f32,
     pub projection: u32,
+}
+
+/// `Display` of `shaders/lib/display.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct DisplayUniform {
+    pub rgb_from_xyz: [[f32; 4]; 3],
+    pub shown_from_rgb: [[f32; 4]; 3],
+}
+
+impl DisplayUniform {
+    pub fn of(display: &Display) -> DisplayUniform {
+        DisplayUniform {
+            rgb_from_xyz: columns(display.rgb_from_xyz()),
+            shown_from_rgb: columns(display.shown_from_rgb()),
+        }
+    }
+}
+
+/// Values for the constants that `shaders/lib/display.wgsl` leaves open, for a picture of 8 bits or a deep
+/// one.
+pub fn display_constants(display: &Display, is_deep: bool) -> [(&'static str, f64); 2] {
+    let steps = if is_deep || !display.dither { 0.0 } else { 255.0 };
+    [("IS_ENCODED", f64::from(u8::from(display.space.is_encoded()))), ("CODE_STEPS", steps)]
 }
 
 /// `Sky` of `shaders/skylight.wgsl`.
