@@ -46,10 +46,9 @@ fn dithered(codes: vec3f, noise: f32) -> vec3f {
     return codes + select(vec3f(triangular), vec3f(0.5 * centred), is_near_an_end);
 }
 
-// Given X, Y and Z in shares of the screen's white and the pixel, the codes, 0 to 1, as the target
-// of 8 bits takes them or, without CODE_STEPS, as they are.
-fn display_code(display: Display, xyz: vec3f, pixel: vec2f) -> vec4f {
-    let rgb = gamut(display.rgb_from_xyz * xyz, xyz.y);
+// Given linear RGB within the gamut and the pixel, the codes, 0 to 1, as the target of 8 bits takes
+// them or, without CODE_STEPS, as they are.
+fn rgb_code(display: Display, rgb: vec3f, pixel: vec2f) -> vec4f {
     let shown = saturate(display.shown_from_rgb * rgb);
     var codes = shown;
     if IS_ENCODED {
@@ -60,4 +59,9 @@ fn display_code(display: Display, xyz: vec3f, pixel: vec2f) -> vec4f {
         codes = saturate(floor(steps + 0.5) / CODE_STEPS);
     }
     return vec4f(codes, 1.0);
+}
+
+// The same of X, Y and Z in shares of the screen's white.
+fn display_code(display: Display, xyz: vec3f, pixel: vec2f) -> vec4f {
+    return rgb_code(display, gamut(display.rgb_from_xyz * xyz, xyz.y), pixel);
 }
