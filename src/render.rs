@@ -11,8 +11,10 @@ mod discs;
 mod globe;
 mod globe_maps;
 mod milky_way;
+pub mod photo;
 mod sky;
 pub mod sky_tiles;
+mod spikes;
 mod splats;
 mod target;
 
@@ -20,6 +22,7 @@ use std::sync::OnceLock;
 
 use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
+use crate::photo::lens::Spike;
 use crate::plan::{FramePlan, SkyPlan};
 use crate::units::Xyzv;
 
@@ -34,6 +37,8 @@ pub struct Renderer {
     milky_way: OnceLock<milky_way::MilkyWayPass>,
     discs: discs::DiscPass,
     splats: splats::SplatPass,
+    /// Made when a lens first has them.
+    spikes: OnceLock<spikes::SpikePass>,
 }
 
 /// A drawn frame and what it cost.
@@ -50,7 +55,8 @@ impl Renderer {
         let sky = sky::SkyPass::new(&gpu);
         let discs = discs::DiscPass::new(&gpu);
         let splats = splats::SplatPass::new(&gpu);
-        Ok(Renderer { gpu, sky, milky_way: OnceLock::new(), discs, splats })
+        let (milky_way, spikes) = (OnceLock::new(), OnceLock::new());
+        Ok(Renderer { gpu, sky, milky_way, discs, splats, spikes })
     }
 
     /// What draws: the adapter's name and driver.
@@ -65,6 +71,29 @@ impl Renderer {
 
     /// The same, the sky drawn in a way that is given.
     pub fn frame_with(&self, plan: &FramePlan, detail: SkyDetail) -> Result<Rendered, GpuError> {
+        self.draw(plan, detail, &[])
+    }
+
+    /// The frame as it lies on the sensor of a camera, with the spikes of its aperture.
+    pub fn frame_with_spikes(
+        &self,
+        plan: &FramePlan,
+        spikes: &[Spike],
+    ) -> Result<Rendered, GpuError> {
+        self.draw(plan, SkyDetail::Tiles, spikes)
+    }
+
+    /// The device that draws.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    fn draw(
+        &self,
+        plan: &FramePlan,
+        detail: SkyDetail,
+        spikes: &[Spike],
+    ) -> Result<Rendered, GpuError> {
         let camera = &plan.camera;
         let mut frame = target::Target::new(&self.gpu, camera)?;
 
@@ -77,6 +106,10 @@ impl Renderer {
             self.discs.draw(&mut frame, disc);
         }
         self.splats.draw(&mut frame, &plan.splats, camera);
+        if !spikes.is_empty() {
+            let pass = self.spikes.get_or_init(|| spikes::SpikePass::new(&self.gpu));
+            pass.draw(&mut frame, spikes);
+        }
         frame.finish()
     }
 

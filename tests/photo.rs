@@ -42,8 +42,8 @@ fn saturation(photo: &Photo, luminance_cd_m2: f64) -> f64 {
 
 #[test]
 fn sunny_sixteen_shows_a_grey_card_in_sunlight_in_the_middle() {
-    // 1e5 lux and a bit of sky on a card of 18 %; f/16, 1/100 s at ISO 100 (EV 15).
-    let card = 0.18 * 1.1e5 / std::f64::consts::PI;
+    // 8e4 lux, a high Sun on level ground, on a card of 18 %; f/16, 1/100 s at ISO 100 (EV 15).
+    let card = 0.18 * 8e4 / std::f64::consts::PI;
     for iso in [100.0, 400.0] {
         let share = saturation(&set(16.0, 1.0 / iso, iso), card);
         // A meter lays it at 10/78, 0.128.
@@ -63,10 +63,15 @@ fn looney_eleven_shows_the_full_moon() {
 
 #[test]
 fn twenty_seconds_show_the_milky_way() {
-    // 20 s, f/2.8, ISO 3200, a sky of 21.5 to 22 mag/arcsec2: 10.8e4 10^(-0.4 mu) cd/m2.
+    // 20 s, f/2.8, ISO 3200, a sky of 21.5 to 22 mag/arcsec2: 10.8e4 10^(-0.4 mu) cd/m2. A hundredth or two of
+    // saturation, as those find who look at raw files, and a sixth of the way from black to white in the
+    // codes of the picture.
     for mu in [21.5, 22.0] {
-        let share = saturation(&set(2.8, 20.0, 3200.0), 10.8e4 * 10f64.powf(-0.4 * mu));
-        assert!((0.02..0.15).contains(&share), "{mu}: {share}");
+        let photo = set(2.8, 20.0, 3200.0);
+        let share = saturation(&photo, 10.8e4 * 10f64.powf(-0.4 * mu));
+        assert!((0.01..0.025).contains(&share), "{mu}: {share}");
+        let [code, ..] = Display::default().encoded([photo.curve.shown(share); 3]);
+        assert!((0.12..0.21).contains(&code), "{mu}: {code}");
     }
 }
 
@@ -111,7 +116,7 @@ fn the_meter_lays_grey_in_the_middle_and_stays_within_its_limits() {
 fn signal_to_noise_is_that_of_counting() {
     // A patch of 400 x 400 pixels at several levels: mean within 0.5 %, signal to noise within 2 %.
     let camera = camera(400, 400);
-    for (luminance, iso) in [(2e-4, 6400.0), (2e-3, 3200.0), (0.3, 200.0)] {
+    for (luminance, iso) in [(2e-4, 6400.0), (2e-3, 3200.0), (0.05, 200.0)] {
         let photo = Photo { noise: true, seed: 7, ..set(2.8, 20.0, iso) };
         let light = white(luminance);
         let exposure = photo.exposed(&metered(&[light]), &camera);
@@ -189,8 +194,6 @@ fn the_same_settings_make_the_same_picture_of_true_colours() {
     let exposure = photo.exposed(&metered(&[orange, blue]), &camera(2, 1));
     let display = Display { dither: false, ..Display::default() };
     let rgb = [orange, blue].map(|l| exposure.developed(exposure.raw(l, 0, 0), &display));
-    let share = exposure.raw_from_xyz.inverse() * DVec3::splat(0.0);
-    assert_eq!(share, DVec3::ZERO);
     for (shown, light) in rgb.iter().zip([orange, blue]) {
         let meant = display.rgb_from_xyz() * DVec3::new(light.x, light.y, light.z);
         let off = (*shown / shown.y - meant / meant.y).abs().max_element();

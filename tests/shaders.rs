@@ -8,8 +8,8 @@ use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, MeshBandUniform,
-    PlanetUniform, RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, ExposureUniform, GlobeUniform,
+    MeshBandUniform, PhotoUniform, PlanetUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -64,6 +64,24 @@ fn uniforms_have_one_layout_on_both_sides() {
     );
     let library = parsed("library", &LIBRARY.join("\n"));
     same_layout!(library, "Display", DisplayUniform, [rgb_from_xyz, shown_from_rgb]);
+    let photo = parsed("photo", &assembled("photo"));
+    same_layout!(photo, "Setting", PhotoUniform, [exposure, display]);
+    same_layout!(
+        photo,
+        "Exposure",
+        ExposureUniform,
+        [
+            raw_from_xyz,
+            xyz_from_balanced,
+            balance,
+            shot,
+            centre_px,
+            natural,
+            mechanical_root,
+            read,
+            seed
+        ]
+    );
     let globe = parsed("globe", &assembled("globe"));
     same_layout!(
         globe,

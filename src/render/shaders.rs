@@ -9,7 +9,7 @@ const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 const DISPLAY: &str = include_str!("../../shaders/lib/display.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 8] = [
+pub const SHADERS: [(&str, &[&str]); 10] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("milky-way", &[QUANTITIES, CAMERA, include_str!("../../shaders/milky_way.wgsl")]),
@@ -18,6 +18,8 @@ pub const SHADERS: [(&str, &[&str]); 8] = [
     ("discs", &[QUANTITIES, CAMERA, GLOBE, DISCS]),
     ("planets", &[QUANTITIES, CAMERA, GLOBE, DISCS, include_str!("../../shaders/planet.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
+    ("spikes", &[QUANTITIES, CAMERA, include_str!("../../shaders/spikes.wgsl")]),
+    ("photo", &[QUANTITIES, DISPLAY, include_str!("../../shaders/photo.wgsl")]),
 ];
 
 /// The functions without bindings, for the probes that compare them with their twins.

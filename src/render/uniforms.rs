@@ -16,6 +16,8 @@ use crate::light::belts;
 use crate::light::disc_light::disc_axes;
 use crate::light::limb_law::{LIMB_COSINE, LimbLaw};
 use crate::light::saturn_rings::RINGS;
+use crate::photo::exposure::Exposure;
+use crate::photo::lens::Spike;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
@@ -55,6 +57,75 @@ impl DisplayUniform {
 pub fn display_constants(display: &Display, is_deep: bool) -> [(&'static str, f64); 2] {
     let steps = if is_deep || !display.dither { 0.0 } else { 255.0 };
     [("IS_ENCODED", f64::from(u8::from(display.space.is_encoded()))), ("CODE_STEPS", steps)]
+}
+
+/// `Exposure` of `shaders/photo.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct ExposureUniform {
+    pub raw_from_xyz: [[f32; 4]; 3],
+    pub xyz_from_balanced: [[f32; 4]; 3],
+    pub balance: [f32; 3],
+    pub shot: f32,
+    pub centre_px: [f32; 2],
+    pub natural: f32,
+    pub mechanical_root: f32,
+    pub read: f32,
+    pub seed: u32,
+    pub pad: [u32; 2],
+}
+
+/// `Setting` of `shaders/photo.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PhotoUniform {
+    pub exposure: ExposureUniform,
+    pub display: DisplayUniform,
+}
+
+impl PhotoUniform {
+    pub fn of(exposure: &Exposure, display: &Display) -> PhotoUniform {
+        let [width, height] = exposure.size_px;
+        let falloff = exposure.falloff;
+        let to_corner = (width * width + height * height) / 4.0;
+        PhotoUniform {
+            exposure: ExposureUniform {
+                raw_from_xyz: columns(exposure.raw_from_xyz),
+                xyz_from_balanced: columns(exposure.xyz_from_balanced),
+                balance: exposure.balance.as_vec3().to_array(),
+                shot: exposure.shot as f32,
+                centre_px: [(width / 2.0) as f32, (height / 2.0) as f32],
+                natural: (falloff.natural / (exposure.focal_px * exposure.focal_px)) as f32,
+                mechanical_root: (falloff.mechanical.sqrt() / to_corner) as f32,
+                read: exposure.read as f32,
+                seed: exposure.seed,
+                pad: [0; 2],
+            },
+            display: DisplayUniform::of(display),
+        }
+    }
+}
+
+/// `Spike` of `shaders/spikes.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct SpikeInstance {
+    pub centre_px: [f32; 2],
+    pub direction: [f32; 2],
+    pub half_size_px: [f32; 2],
+    pub amplitude: [f32; 4],
+}
+
+impl SpikeInstance {
+    pub fn of(spike: &Spike) -> SpikeInstance {
+        let pair = |pair: [f64; 2]| pair.map(|v| v as f32);
+        SpikeInstance {
+            centre_px: pair(spike.centre_px),
+            direction: pair(spike.direction),
+            half_size_px: pair([spike.half_length_px, spike.half_width_px]),
+            amplitude: spike.amplitude.to_f32(),
+        }
+    }
 }
 
 /// `Sky` of `shaders/skylight.wgsl`.
