@@ -30,8 +30,8 @@ override IS_FILM: bool = true;
 @group(0) @binding(1) var frame: texture_2d<f32>;
 
 // PCG3D of Jarzynski & Olano 2020.
-fn pcg3d(of: vec3u) -> vec3u {
-    var v = of * 1664525u + 1013904223u;
+fn pcg3d(seeds: vec3u) -> vec3u {
+    var v = seeds * 1664525u + 1013904223u;
     v.x += v.y * v.z;
     v.y += v.z * v.x;
     v.z += v.x * v.y;

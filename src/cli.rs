@@ -7,6 +7,7 @@
 mod almanac;
 mod atmosphere;
 mod brightness;
+pub mod display;
 mod draw;
 mod ephemeris;
 mod error;
@@ -14,6 +15,7 @@ mod look;
 mod night_glow;
 mod objects;
 mod outputs;
+pub mod photo;
 mod place;
 mod progress;
 mod radiance;

@@ -29,7 +29,7 @@ fn gamut(rgb: vec3f, luminance: f32) -> vec3f {
 fn encode(rgb: vec3f) -> vec3f {
     let q = sqrt(sqrt(rgb));
     let curve = -0.064611494 + q * (0.19613561 + q * (1.1226822 + q * (-0.335502 + q * 0.081330083)));
-    return select(curve, 12.92 * rgb, rgb <= vec3f(0.0031308));
+    return select(min(curve, vec3f(1.0)), 12.92 * rgb, rgb <= vec3f(0.0031308));
 }
 
 // Noise of a pixel, 0 up to 1: the sequence R2.
