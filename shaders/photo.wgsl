@@ -1,30 +1,48 @@
 // What a camera records of the frame, developed and shown: the twin of src/photo/exposure.rs.
-
-struct Exposure {
-    // Channels as shares of saturation of X, Y and Z, cd/m2, on the axis.
-    raw_from_xyz: mat3x3f,
-    // X, Y and Z as shares of the screen's white, of balanced channels.
-    xyz_from_balanced: mat3x3f,
-    balance: vec3f,
-    // Variance of a share for each share: counting.
-    shot: f32,
-    centre_px: vec2f,
-    // Over the squares of the focal length and of the way to the corner, pixels.
-    natural: f32,
-    mechanical_root: f32,
-    // Variance in the dark: reading.
-    read: f32,
-    seed: u32,
-}
+//
+// The settings reach the fragments through the corners, flat: the software driver reads a uniform
+// anew for each pixel, which would double the cost.
 
 struct Setting {
-    exposure: Exposure,
-    display: Display,
+    // Balanced channels as shares of saturation of X, Y and Z, cd/m2, on the axis.
+    balanced_from_xyz: mat3x3f,
+    // Linear RGB of the screen of balanced channels, and their luminance.
+    rgb_from_balanced: mat3x3f,
+    luminance_from_balanced: vec3f,
+    // Over the square of the way from the centre, pixels.
+    natural: f32,
+    // Variance of a share for each share: counting.
+    shot: vec3f,
+    mechanical_root: f32,
+    // Variance in the dark: reading.
+    read: vec3f,
+    seed: u32,
+    // Luminance of the screen's RGB.
+    luminance_from_rgb: vec3f,
+    pad: f32,
+    centre_px: vec2f,
 }
 
-// Whether there is noise, and whether the curve is that of film.
+struct Corner {
+    @builtin(position) position: vec4f,
+    // Rows of the matrices, with single numbers beside them.
+    @location(0) @interpolate(flat) red_from_xyz: vec4f,
+    @location(1) @interpolate(flat) green_from_xyz: vec4f,
+    @location(2) @interpolate(flat) blue_from_xyz: vec4f,
+    @location(3) @interpolate(flat) red_from_balanced: vec4f,
+    @location(4) @interpolate(flat) green_from_balanced: vec4f,
+    @location(5) @interpolate(flat) blue_from_balanced: vec4f,
+    @location(6) @interpolate(flat) luminance: vec4f,
+    @location(7) @interpolate(flat) shot: vec3f,
+    @location(8) @interpolate(flat) read: vec3f,
+    @location(9) @interpolate(flat) seed: u32,
+    @location(10) off_centre_px: vec2f,
+}
+
+// Whether there is noise, whether the curve is that of film, and whether all is shown in red.
 override IS_NOISY: bool = true;
 override IS_FILM: bool = true;
+override IS_RED: bool = false;
 
 @group(0) @binding(0) var<uniform> setting: Setting;
 @group(0) @binding(1) var frame: texture_2d<f32>;
@@ -50,49 +68,68 @@ fn sensor_noise(pixel: vec2u, seed: u32) -> vec3f {
     return (vec3f(vec3i(sum)) - 510.0) * 0.0067658751;
 }
 
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    // One triangle that holds the whole picture.
+    let clip = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
+    let recorded = transpose(setting.balanced_from_xyz);
+    let shown = transpose(setting.rgb_from_balanced);
+    let red = setting.luminance_from_rgb;
+    return Corner(
+        vec4f(clip, 0.0, 1.0),
+        vec4f(recorded[0], setting.natural),
+        vec4f(recorded[1], setting.mechanical_root),
+        vec4f(recorded[2], 0.0),
+        vec4f(shown[0], red.x),
+        vec4f(shown[1], red.y),
+        vec4f(shown[2], red.z),
+        vec4f(setting.luminance_from_balanced, 0.0),
+        setting.shot,
+        setting.read,
+        setting.seed,
+        setting.centre_px * vec2f(clip.x, -clip.y),
+    );
+}
+
 // The share of the light that the lens leaves.
-fn falloff(exposure: Exposure, pixel: vec2f) -> f32 {
-    let off = pixel - exposure.centre_px;
-    let square = dot(off, off);
-    let natural = 1.0 + exposure.natural * square;
-    let mechanical = exposure.mechanical_root * square;
+fn falloff(corner: Corner) -> f32 {
+    let square = dot(corner.off_centre_px, corner.off_centre_px);
+    let natural = 1.0 + corner.red_from_xyz.w * square;
+    let mechanical = corner.green_from_xyz.w * square;
     return (1.0 - mechanical * mechanical) / (natural * natural);
 }
 
-// Given the light of a pixel, shares of saturation, the black level subtracted.
-fn raw(exposure: Exposure, light: LuminanceXyzv, pixel: vec2f) -> vec3f {
-    let mean = max(exposure.raw_from_xyz * light.xyz * falloff(exposure, pixel), vec3f(0.0));
-    var recorded = mean;
-    if IS_NOISY {
-        let deviation = sqrt(mean * exposure.shot + exposure.read);
-        recorded += deviation * sensor_noise(vec2u(pixel), exposure.seed);
-    }
-    return min(recorded, vec3f(1.0));
-}
-
-// Given what was recorded, linear RGB of the screen, within its gamut.
-fn developed(exposure: Exposure, display: Display, raw: vec3f) -> vec3f {
-    let balanced = min(raw * exposure.balance, vec3f(1.0));
-    let xyz = exposure.xyz_from_balanced * balanced;
-    let rgb = gamut(display.rgb_from_xyz * xyz, xyz.y);
-    if IS_FILM {
-        let room = 1.0 - min(rgb, vec3f(1.0));
-        return 1.0 - room * sqrt(room);
-    }
-    return rgb;
-}
-
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    // One triangle that holds the whole picture.
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
-}
-
 @fragment
-fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let light = textureLoad(frame, vec2i(position.xy), 0);
-    let recorded = raw(setting.exposure, light, position.xy);
-    let rgb = developed(setting.exposure, setting.display, recorded);
-    return rgb_code(setting.display, rgb, position.xy);
+fn fragment(corner: Corner) -> @location(0) vec4f {
+    let pixel = corner.position.xy;
+    let light = textureLoad(frame, vec2i(pixel), 0).xyz * falloff(corner);
+    // What the sensor records, the black level subtracted, balanced to white.
+    var balanced = max(
+        vec3f(
+            dot(corner.red_from_xyz.xyz, light),
+            dot(corner.green_from_xyz.xyz, light),
+            dot(corner.blue_from_xyz.xyz, light),
+        ),
+        vec3f(0.0),
+    );
+    if IS_NOISY {
+        let deviation = sqrt(balanced * corner.shot + corner.read);
+        balanced += deviation * sensor_noise(vec2u(pixel), corner.seed);
+    }
+    balanced = min(balanced, vec3f(1.0));
+    // What is shown of it.
+    let linear = vec3f(
+        dot(corner.red_from_balanced.xyz, balanced),
+        dot(corner.green_from_balanced.xyz, balanced),
+        dot(corner.blue_from_balanced.xyz, balanced),
+    );
+    var rgb = gamut(linear, dot(corner.luminance.xyz, balanced));
+    if IS_FILM {
+        rgb = rgb * (1.5 - 0.5 * rgb * rgb);
+    }
+    if IS_RED {
+        let red = vec3f(corner.red_from_balanced.w, corner.green_from_balanced.w, corner.blue_from_balanced.w);
+        rgb = vec3f(dot(red, rgb), 0.0, 0.0);
+    }
+    return shown_code(rgb, pixel);
 }

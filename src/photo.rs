@@ -49,8 +49,8 @@ pub enum PhotoError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Curve {
-    /// `1 - (1 - x)^1.5`: half as steep again in the dark, level where the sensor saturates. It shows what is
-    /// metered, 0.128, as 0.186 of white: a grey card as a grey card.
+    /// `x (3 - x^2) / 2`: half as steep again in the dark, level where the sensor saturates. It shows what is
+    /// metered, 0.128, as 0.191 of white: a grey card as a grey card.
     #[default]
     Film,
     /// As recorded: the saturated sensor is the white of the screen.
@@ -58,13 +58,10 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// The share of the screen's white that is shown, of the share of saturation.
+    /// The share of the screen's white that is shown, of a share of saturation from 0 to 1.
     pub fn shown(self, share: f64) -> f64 {
         match self {
-            Curve::Film => {
-                let room = 1.0 - share.min(1.0);
-                1.0 - room * room.sqrt()
-            }
+            Curve::Film => share * (3.0 - share * share) / 2.0,
             Curve::Linear => share,
         }
     }

@@ -5,7 +5,7 @@
 //! angle in a lens that keeps straight lines straight; in a fisheye, whose pupil turns towards the ray, only
 //! with the sky on a unit of sensor: fourth power of the cosine of half the angle (stereographic), none
 //! (equal-area). Both are `(1 + k r^2)^-2` with r in focal lengths and k of 1, 1/4 and 0. For equidistant ones,
-//! sin(theta)/theta, k of 1/12 is 1 % off at 60 degrees and 8 % at 90. *Mechanical vignetting*
+//! sin(theta)/theta, k of 1/12 is 1.5 % off at 60 degrees and 8 % at 90. *Mechanical vignetting*
 //! is of the tube of the lens and differs from lens to lens: ours takes [`MECHANICAL_STOPS`] in
 //! the corner wide open, growing with the fourth power of the height in the picture, and is gone two stops
 //! further down.
@@ -274,7 +274,7 @@ mod tests {
             assert!((fisheye - half.cos().powi(4)).abs() < 1e-12, "{theta_deg}: {fisheye}");
             let equidistant = natural(Projection::Equidistant, theta.rad());
             let exact = if theta_deg > 0.0 { theta.sin() / theta.rad() } else { 1.0 };
-            assert!((equidistant / exact - 1.0).abs() < 0.011, "{theta_deg}: {equidistant}");
+            assert!((equidistant / exact - 1.0).abs() < 0.016, "{theta_deg}: {equidistant}");
         }
         let corner = open.falloff(Projection::EqualArea).at(0.5, 1.0);
         assert!((corner - 0.5f64.powf(0.7)).abs() < 1e-12, "{corner}");

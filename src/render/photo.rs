@@ -17,7 +17,7 @@ pub const CODE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhotoKind {
     format: wgpu::TextureFormat,
-    constants: [(&'static str, f64); 4],
+    constants: [(&'static str, f64); 5],
 }
 
 impl PhotoKind {
@@ -27,7 +27,8 @@ impl PhotoKind {
         let [encoded, steps] = display_constants(display, format != CODE_FORMAT);
         let noisy = ("IS_NOISY", is(exposure.noise));
         let film = ("IS_FILM", is(exposure.curve == Curve::Film));
-        PhotoKind { format, constants: [encoded, steps, noisy, film] }
+        let red = ("IS_RED", is(display.red));
+        PhotoKind { format, constants: [encoded, steps, noisy, film, red] }
     }
 }
 
@@ -42,7 +43,7 @@ impl PhotoPass {
     pub fn new(gpu: &Gpu, kind: PhotoKind) -> PhotoPass {
         let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty,
             count: None,
         };

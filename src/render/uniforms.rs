@@ -6,7 +6,7 @@
 //! what is read for every pixel and never branched on is a uniform: that of the globe.
 
 use bytemuck::{Pod, Zeroable};
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
@@ -59,28 +59,22 @@ pub fn display_constants(display: &Display, is_deep: bool) -> [(&'static str, f6
     [("IS_ENCODED", f64::from(u8::from(display.space.is_encoded()))), ("CODE_STEPS", steps)]
 }
 
-/// `Exposure` of `shaders/photo.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct ExposureUniform {
-    pub raw_from_xyz: [[f32; 4]; 3],
-    pub xyz_from_balanced: [[f32; 4]; 3],
-    pub balance: [f32; 3],
-    pub shot: f32,
-    pub centre_px: [f32; 2],
-    pub natural: f32,
-    pub mechanical_root: f32,
-    pub read: f32,
-    pub seed: u32,
-    pub pad: [u32; 2],
-}
-
 /// `Setting` of `shaders/photo.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct PhotoUniform {
-    pub exposure: ExposureUniform,
-    pub display: DisplayUniform,
+    pub balanced_from_xyz: [[f32; 4]; 3],
+    pub rgb_from_balanced: [[f32; 4]; 3],
+    pub luminance_from_balanced: [f32; 3],
+    pub natural: f32,
+    pub shot: [f32; 3],
+    pub mechanical_root: f32,
+    pub read: [f32; 3],
+    pub seed: u32,
+    pub luminance_from_rgb: [f32; 3],
+    pub pad: f32,
+    pub centre_px: [f32; 2],
+    pub end: [f32; 2],
 }
 
 impl PhotoUniform {
@@ -88,20 +82,23 @@ impl PhotoUniform {
         let [width, height] = exposure.size_px;
         let falloff = exposure.falloff;
         let to_corner = (width * width + height * height) / 4.0;
+        let balance = exposure.balance;
+        let rgb_from_balanced = display.rgb_from_xyz() * exposure.xyz_from_balanced;
+        let luminance_from_rgb = display.rgb_from_xyz().inverse().row(1);
+        let triple = |v: DVec3| v.as_vec3().to_array();
         PhotoUniform {
-            exposure: ExposureUniform {
-                raw_from_xyz: columns(exposure.raw_from_xyz),
-                xyz_from_balanced: columns(exposure.xyz_from_balanced),
-                balance: exposure.balance.as_vec3().to_array(),
-                shot: exposure.shot as f32,
-                centre_px: [(width / 2.0) as f32, (height / 2.0) as f32],
-                natural: (falloff.natural / (exposure.focal_px * exposure.focal_px)) as f32,
-                mechanical_root: (falloff.mechanical.sqrt() / to_corner) as f32,
-                read: exposure.read as f32,
-                seed: exposure.seed,
-                pad: [0; 2],
-            },
-            display: DisplayUniform::of(display),
+            balanced_from_xyz: columns(DMat3::from_diagonal(balance) * exposure.raw_from_xyz),
+            rgb_from_balanced: columns(rgb_from_balanced),
+            luminance_from_balanced: triple(exposure.xyz_from_balanced.row(1)),
+            natural: (falloff.natural / (exposure.focal_px * exposure.focal_px)) as f32,
+            shot: triple(balance * exposure.shot),
+            mechanical_root: (falloff.mechanical.sqrt() / to_corner) as f32,
+            read: triple(balance * balance * exposure.read),
+            seed: exposure.seed,
+            luminance_from_rgb: triple(luminance_from_rgb),
+            pad: 0.0,
+            centre_px: [(width / 2.0) as f32, (height / 2.0) as f32],
+            end: [0.0; 2],
         }
     }
 }
