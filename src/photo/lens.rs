@@ -219,7 +219,8 @@ impl Spikes {
         let half_width_px = radius_px.max(0.0) + HALF_WIDTH_PX;
         let visible_px = (amplitude.y / (faintest_lx.max(1e-30) * half_width_px)).sqrt();
         let half_length_px = visible_px.min(longest_px);
-        if !(half_length_px >= SHORTEST_PX) {
+        // No number is too short as well.
+        if half_length_px.is_nan() || half_length_px < SHORTEST_PX {
             return (illuminance, Vec::new());
         }
         let spike = |line: u32| {

@@ -79,8 +79,7 @@ impl PhotoPass {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
         frame: &wgpu::TextureView,
-        exposure: &Exposure,
-        display: &Display,
+        (exposure, display): (&Exposure, &Display),
         times: Option<wgpu::RenderPassTimestampWrites>,
     ) {
         let uniform = PhotoUniform::of(exposure, display);
@@ -159,7 +158,7 @@ fn recorded<P: Copy + Default + bytemuck::Pod>(
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let [to, from] = [&target, &light].map(|texture| texture.create_view(&Default::default()));
     let pass = PhotoPass::new(gpu, PhotoKind::of(format, exposure, display));
-    pass.draw(gpu, &mut encoder, &to, &from, exposure, display, None);
+    pass.draw(gpu, &mut encoder, &to, &from, (exposure, display), None);
     let layout =
         wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
     let into = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
