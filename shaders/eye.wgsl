@@ -1,5 +1,12 @@
 // What the eye makes of the light of each pixel, shown on the screen.
 
+// Linear RGB of X, Y and Z, and the luminance of each primary.
+struct DisplayRows {
+    red: vec4f,
+    green: vec4f,
+    blue: vec4f,
+}
+
 // Grain of the rods: its seed's place in the noise, its size in pixels, and its strength.
 struct Grain {
     place: vec2f,
@@ -9,7 +16,7 @@ struct Grain {
 
 @group(0) @binding(0) var between: sampler;
 @group(0) @binding(1) var<uniform> retina: Retina;
-@group(0) @binding(2) var<uniform> display: Display;
+@group(0) @binding(2) var<uniform> display: DisplayRows;
 // What cones and rods give of X, Y, Z and V, in shares of the screen's peak.
 @group(0) @binding(3) var shown: texture_2d<f32>;
 @group(0) @binding(4) var frame: texture_2d<f32>;
@@ -24,56 +31,88 @@ struct Grain {
 @group(0) @binding(11) var repeated: sampler;
 
 override HAS_GRAIN: bool = false;
+// Whether all is shown in red.
+override IS_RED: bool = false;
+
+// What is the same for all pixels reaches them through the corners: the software driver reads a uniform anew
+// for each.
+struct Corner {
+    @builtin(position) position: vec4f,
+    // Rows of the display's matrix, and the luminance of its primaries.
+    @location(0) @interpolate(flat) red: vec4f,
+    @location(1) @interpolate(flat) green: vec4f,
+    @location(2) @interpolate(flat) blue: vec4f,
+    // Shares of the light that are in place and spread; pixels of the frame on the picture of half its size.
+    @location(3) @interpolate(flat) retina: vec4f,
+    // The same on the coarse picture, and the place in the noise.
+    @location(4) @interpolate(flat) coarse: vec4f,
+    @location(5) @interpolate(flat) grain: vec2f,
+}
 
 @vertex
-fn vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(select(tile.xy, tile.zw, vec2<bool>((index & 1u) == 1u, (index >> 1u) == 1u)));
-    let place = corner / retina.size_px;
-    return vec4f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0);
+fn vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> Corner {
+    let is_far = vec2<bool>((index & 1u) == 1u, (index >> 1u) == 1u);
+    let place = vec2f(select(tile.xy, tile.zw, is_far)) / retina.size_px;
+    return Corner(
+        vec4f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0),
+        display.red,
+        display.green,
+        display.blue,
+        vec4f(retina.in_place, retina.spread, retina.half_scale),
+        vec4f(retina.soft_scale, grain.place / 256.0),
+        vec2f(1.0 / (256.0 * grain.size_px), grain.strength),
+    );
 }
 
 // Where the eye resolves all that the frame holds, and nothing bright is near.
 @fragment
-fn plain(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let light = textureLoad(frame, vec2u(pixel.xy), 0);
-    return codes(seen_of(shown, between, light), pixel.xy);
+fn plain(corner: Corner) -> @location(0) vec4f {
+    return codes(corner, seen_of(shown, between, textureLoad(frame, vec2u(corner.position.xy), 0)));
 }
 
 // Where it resolves all.
 @fragment
-fn sharp(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return codes(seen_with_glare(textureLoad(frame, vec2u(pixel.xy), 0), pixel.xy), pixel.xy);
+fn sharp(corner: Corner) -> @location(0) vec4f {
+    let light = textureLoad(frame, vec2u(corner.position.xy), 0);
+    return codes(corner, seen_with_glare(corner, light));
 }
 
 // Where it resolves some.
 @fragment
-fn mixed(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let fine = textureLoad(frame, vec2u(pixel.xy), 0);
-    let soft = from_level(blurred, between, pixel.xy, 0.5);
+fn mixed(corner: Corner) -> @location(0) vec4f {
+    let fine = textureLoad(frame, vec2u(corner.position.xy), 0);
+    let soft = textureSampleLevel(blurred, between, corner.position.xy * corner.retina.zw, 0.0);
     let lost = clamp(level_resolved(levels_resolved, between, soft), 0.0, 1.0);
-    return codes(seen_with_glare(mix(fine, soft, lost), pixel.xy), pixel.xy);
+    return codes(corner, seen_with_glare(corner, mix(fine, soft, lost)));
 }
 
 // Where it resolves no more than a coarser level holds.
 @fragment
-fn soft(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return codes(from_level(coarse, between, pixel.xy, retina.soft_scale), pixel.xy);
+fn soft(corner: Corner) -> @location(0) vec4f {
+    return codes(corner, textureSampleLevel(coarse, between, corner.position.xy * corner.coarse.xy, 0.0));
 }
 
 // Given the light that is resolved at a pixel, what is shown there.
-fn seen_with_glare(resolved: LuminanceXyzv, pixel: vec2f) -> vec4f {
-    let scattered = retina.spread * from_level(spread, between, pixel, 0.5);
-    return seen_of(shown, between, retina.in_place * resolved + scattered);
+fn seen_with_glare(corner: Corner, resolved: LuminanceXyzv) -> vec4f {
+    let scattered = textureSampleLevel(spread, between, corner.position.xy * corner.retina.zw, 0.0);
+    return seen_of(shown, between, corner.retina.x * resolved + corner.retina.y * scattered);
 }
 
 // Given X, Y and Z in shares of the screen's peak, and the luminance that they come of.
-fn codes(seen: vec4f, pixel: vec2f) -> vec4f {
+fn codes(corner: Corner, seen: vec4f) -> vec4f {
     var xyz = seen.xyz;
     if HAS_GRAIN {
-        let here = textureSampleLevel(noise, repeated, (pixel / grain.size_px + grain.place) / 256.0, 0.0).x;
+        let place = corner.position.xy * corner.grain.x + corner.coarse.zw;
+        let here = textureSampleLevel(noise, repeated, place, 0.0).x;
         // The fewer quanta are caught, the more their number varies.
-        let spread_of_counts = grain.strength * inverseSqrt(seen.w + grain.strength * grain.strength);
-        xyz *= max(1.0 + here * min(spread_of_counts, 0.5), 0.0);
+        let strength = corner.grain.y;
+        let of_counts = min(strength * inverseSqrt(seen.w + strength * strength), 0.5);
+        xyz *= max(1.0 + here * of_counts, 0.0);
     }
-    return display_code(display, xyz, pixel);
+    let rgb = vec3f(dot(corner.red.xyz, xyz), dot(corner.green.xyz, xyz), dot(corner.blue.xyz, xyz));
+    var sent = gamut(rgb, xyz.y);
+    if IS_RED {
+        sent = vec3f(dot(vec3f(corner.red.w, corner.green.w, corner.blue.w), sent), 0.0, 0.0);
+    }
+    return shown_code(saturate(sent), corner.position.xy);
 }

@@ -48,8 +48,9 @@ const DEEP_CODE: f32 = 1e-5;
 @vertex
 fn vertex(point: Point, @builtin(vertex_index) index: u32) -> Corner {
     let centre = point.centre_px;
-    let background = retina.in_place * from_level(around, between, centre, retina.around_scale)
-        + from_level(spread_around, between, centre, retina.around_scale);
+    let place = centre * retina.around_scale;
+    let background = retina.in_place * textureSampleLevel(around, between, place, 0.0)
+        + retina.spread * textureSampleLevel(spread_around, between, place, 0.0);
     let seen = at_light(visible, between, background);
     let share = smoothstep(GLIMPSED, 1.0, point.illuminance / seen.y);
     let strength = point.illuminance * seen.x * share;

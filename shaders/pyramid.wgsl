@@ -22,9 +22,23 @@ struct Step {
 @group(0) @binding(4) var blurred: texture_2d<f32>;
 @group(0) @binding(5) var levels_resolved: texture_2d<f32>;
 
+struct Corner {
+    @builtin(position) position: vec4f,
+    // What is the same for all texels, which the software driver would read anew for each.
+    @location(0) @interpolate(flat) shares: vec4f,
+    @location(1) @interpolate(flat) within_x: vec4f,
+    @location(2) @interpolate(flat) within_y: vec4f,
+}
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return full_screen_corner(index);
+}
+
+@vertex
+fn upward(@builtin(vertex_index) index: u32) -> Corner {
+    let shares = vec4f(step.share, step.coarser, step.level, step.in_place);
+    return Corner(full_screen_corner(index), shares, step.within_x, step.within_y);
 }
 
 // Two by two pixels; at an odd end a texel has half of its light, as it has half of its place.
@@ -58,23 +72,24 @@ fn within(texel: u32, texels: u32, last: vec4f) -> f32 {
 }
 
 // Given a texel of this level, the luminance there.
-fn luminance(texel: vec2u) -> LuminanceXyzv {
+fn luminance(corner: Corner) -> LuminanceXyzv {
+    let texel = vec2u(corner.position.xy);
     let texels = textureDimensions(picture);
-    let part = within(texel.x, texels.x, step.within_x) * within(texel.y, texels.y, step.within_y);
+    let part = within(texel.x, texels.x, corner.within_x) * within(texel.y, texels.y, corner.within_y);
     return textureLoad(picture, texel, 0) / part;
 }
 
-// Given a pixel of this level, its light in a picture of the coarser one.
-fn from_coarser(coarse: texture_2d<f32>, pixel: vec2f) -> LuminanceXyzv {
-    let place = 0.5 * pixel / vec2f(textureDimensions(coarse));
+// Given a texel of this level, its light in a picture of the coarser one.
+fn from_coarser(coarse: texture_2d<f32>, texel: vec2f) -> LuminanceXyzv {
+    let place = 0.5 * texel / vec2f(textureDimensions(coarse));
     return textureSampleLevel(coarse, between, place, 0.0);
 }
 
 // What this level and all coarser ones spread.
 @fragment
-fn spread(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
-    let here = luminance(vec2u(pixel.xy));
-    return step.share * here + step.coarser * from_coarser(coarser, pixel.xy);
+fn spread(corner: Corner) -> @location(0) LuminanceXyzv {
+    let wider = from_coarser(coarser, corner.position.xy);
+    return corner.shares.x * luminance(corner) + corner.shares.y * wider;
 }
 
 struct SpreadAndBlurred {
@@ -82,25 +97,26 @@ struct SpreadAndBlurred {
     @location(1) blurred: LuminanceXyzv,
 }
 
-// The same, and the picture as fine as the eye resolves it here.
-@fragment
-fn spread_and_blurred(@builtin(position) pixel: vec4f) -> SpreadAndBlurred {
-    return stepped_up(pixel.xy);
+fn stepped_up(corner: Corner) -> SpreadAndBlurred {
+    let here = luminance(corner);
+    let wider = from_coarser(coarser, corner.position.xy);
+    let soft = from_coarser(blurred, corner.position.xy);
+    let lost = level_resolved(levels_resolved, between, soft) - corner.shares.z;
+    let spread = corner.shares.x * here + corner.shares.y * wider;
+    return SpreadAndBlurred(spread, mix(here, soft, clamp(lost, 0.0, 1.0)));
 }
 
-fn stepped_up(pixel: vec2f) -> SpreadAndBlurred {
-    let here = luminance(vec2u(pixel));
-    let spread = step.share * here + step.coarser * from_coarser(coarser, pixel);
-    let coarse = from_coarser(blurred, pixel);
-    let lost = clamp(level_resolved(levels_resolved, between, coarse) - step.level, 0.0, 1.0);
-    return SpreadAndBlurred(spread, mix(here, coarse, lost));
+// The same, and the picture as fine as the eye resolves it here.
+@fragment
+fn spread_and_blurred(corner: Corner) -> SpreadAndBlurred {
+    return stepped_up(corner);
 }
 
 @group(0) @binding(6) var shown: texture_2d<f32>;
 
-// What is shown where the eye resolves no more than this level: linear X, Y and Z, and the grain.
+// What is shown where the eye resolves no more than this level: linear X, Y and Z, and the light.
 @fragment
-fn seen(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let up = stepped_up(pixel.xy);
-    return seen_of(shown, between, step.in_place * up.blurred + up.spread);
+fn seen(corner: Corner) -> @location(0) vec4f {
+    let up = stepped_up(corner);
+    return seen_of(shown, between, corner.shares.w * up.blurred + up.spread);
 }

@@ -7,13 +7,16 @@
 mod almanac;
 mod atmosphere;
 mod brightness;
+pub mod display;
 mod draw;
+pub mod eye;
 mod ephemeris;
 mod error;
 mod look;
 mod night_glow;
 mod objects;
 mod outputs;
+pub mod photo;
 mod place;
 mod progress;
 mod radiance;

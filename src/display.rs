@@ -25,6 +25,8 @@ use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::image::Image;
+
 /// What can be wrong with a screen.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DisplayError {
@@ -148,17 +150,35 @@ impl Display {
 
     /// The same before rounding: codes, 0 to 1, of X, Y and Z in shares of white.
     pub fn encoded_xyz(&self, xyz: [f64; 3]) -> [f64; 3] {
-        let rgb = within_gamut(self.rgb_from_xyz() * DVec3::from_array(xyz), xyz[1]);
-        let shown = (self.shown_from_rgb() * rgb).clamp(DVec3::ZERO, DVec3::ONE);
-        self.encoded(shown.to_array())
+        self.encoded_rgb(within_gamut(self.rgb_from_xyz() * DVec3::from_array(xyz), xyz[1]))
     }
 
     /// The codes of a pixel in 8 bits, of X, Y and Z in shares of white.
     pub fn code(&self, xyz: [f64; 3], x: u32, y: u32) -> [u8; 3] {
-        let noise = if self.dither { dither(x, y) } else { 0.5 };
-        self.encoded_xyz(xyz).map(|code| {
+        self.rounded(self.encoded_xyz(xyz), x, y)
+    }
+
+    /// The same of linear RGB within the gamut.
+    pub fn code_of_rgb(&self, rgb: DVec3, x: u32, y: u32) -> [u8; 3] {
+        self.rounded(self.encoded_rgb(rgb), x, y)
+    }
+
+    /// The codes of 16 bits of a picture in linear shares of white; not dithered.
+    pub fn sixteen_bits(&self, linear: &Image<[f32; 3]>) -> Image<[u16; 3]> {
+        let code = |code: f64| (code.clamp(0.0, 1.0) * 65_535.0).round() as u16;
+        linear.map(|rgb| self.encoded(rgb.map(f64::from)).map(code))
+    }
+
+    fn encoded_rgb(&self, rgb: DVec3) -> [f64; 3] {
+        let shown = (self.shown_from_rgb() * rgb).clamp(DVec3::ZERO, DVec3::ONE);
+        self.encoded(shown.to_array())
+    }
+
+    /// Codes, 0 to 1, in whole steps.
+    fn rounded(&self, codes: [f64; 3], x: u32, y: u32) -> [u8; 3] {
+        codes.map(|code| {
             let steps = code * STEPS;
-            let dithered = if self.dither { dithered(steps, noise) } else { steps };
+            let dithered = if self.dither { dithered(steps, dither(x, y)) } else { steps };
             (dithered + 0.5).floor().clamp(0.0, STEPS) as u8
         })
     }

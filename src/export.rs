@@ -3,6 +3,8 @@
 pub mod describe;
 mod draft;
 #[cfg(feature = "cli")]
+pub mod exif;
+#[cfg(feature = "cli")]
 pub mod exr;
 #[cfg(feature = "cli")]
 pub mod png;

@@ -13,6 +13,13 @@ pub struct Image<P> {
 /// A linear frame in absolute units: X, Y, Z and scotopic V of every pixel, cd/m2.
 pub type HdrFrame = Image<[f32; 4]>;
 
+/// Codes of a picture, red, green and blue, as files hold them.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Codes {
+    Eight(Image<[u8; 3]>),
+    Sixteen(Image<[u16; 3]>),
+}
+
 impl<P: Copy> Image<P> {
     /// All pixels alike.
     pub fn filled(width_px: u32, height_px: u32, pixel: P) -> Self {

@@ -59,6 +59,7 @@ pub mod air;
 pub mod display;
 pub mod eye;
 pub mod light;
+pub mod photo;
 
 // A picture: described, planned, drawn.
 pub mod plan;

@@ -6,7 +6,7 @@ use tiny_skia::{LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::camera::Camera;
 use crate::frame::{Apparent, Dir, WINDS};
-use crate::image::Image;
+use crate::image::{Codes, Image};
 use crate::scene::Marks;
 use crate::units::Angle;
 
@@ -14,7 +14,27 @@ use crate::units::Angle;
 const COLOUR: [u8; 3] = [168, 72, 48];
 
 /// Draws marks on a picture taken by `camera`, given the apparent altitude of the horizon.
-pub fn draw(wanted: Marks, picture: &mut Image<[u8; 3]>, camera: &Camera, horizon: Angle) {
+pub fn draw(wanted: Marks, picture: &mut Codes, camera: &Camera, horizon: Angle) {
+    match picture {
+        Codes::Eight(picture) => draw_on(wanted, picture, camera, horizon, |code, over, under| {
+            (over + u32::from(code) * under / 255).min(255) as u8
+        }),
+        Codes::Sixteen(picture) => {
+            draw_on(wanted, picture, camera, horizon, |code, over, under| {
+                (over * 257 + u32::from(code) * under / 255).min(65_535) as u16
+            })
+        }
+    }
+}
+
+/// Draws marks, given a code, the mark over it and how much of the code is left, both of 255.
+fn draw_on<C: Copy>(
+    wanted: Marks,
+    picture: &mut Image<[C; 3]>,
+    camera: &Camera,
+    horizon: Angle,
+    laid: impl Fn(C, u32, u32) -> C,
+) {
     let (width, height) = (picture.width_px(), picture.height_px());
     let Some(mut marks) = Pixmap::new(width, height) else { return };
     let size_px = (f64::from(width.min(height)) / 45.0).clamp(7.0, 48.0);
@@ -26,10 +46,10 @@ pub fn draw(wanted: Marks, picture: &mut Image<[u8; 3]>, camera: &Camera, horizo
     }
     for (pixel, mark) in picture.pixels_mut().iter_mut().zip(marks.pixels()) {
         // The marks are premultiplied with their own coverage.
-        let under = 255 - u16::from(mark.alpha());
+        let under = 255 - u32::from(mark.alpha());
         let over = [mark.red(), mark.green(), mark.blue()];
         for (channel, over) in pixel.iter_mut().zip(over) {
-            *channel = (u16::from(over) + u16::from(*channel) * under / 255).min(255) as u8;
+            *channel = laid(*channel, u32::from(over), under);
         }
     }
 }
@@ -165,8 +185,9 @@ mod tests {
             width_px: 720,
             height_px: 360,
         };
-        let mut picture = Image::filled(720, 360, [0; 3]);
-        draw(Marks::default(), &mut picture, &camera, Angle::ZERO);
+        let mut codes = Codes::Eight(Image::filled(720, 360, [0; 3]));
+        draw(Marks::default(), &mut codes, &camera, Angle::ZERO);
+        let Codes::Eight(picture) = codes else { panic!("other codes") };
         for x in 1..719 {
             assert!(picture.at(x, 179)[0] > 0 || picture.at(x, 180)[0] > 0, "gap at {x}");
         }

@@ -1,4 +1,5 @@
-//! Draws a [`FramePlan`] into an [`HdrFrame`]: the passes in order, on one screen.
+//! Draws a [`FramePlan`] into an [`HdrFrame`], the passes in order, on one screen; and makes the picture of
+//! it that an eye sees or a camera records.
 //!
 //! The frame is linear, in cd/m2, 32 bits a channel, from the dark between the stars to the disc
 //! of the Sun without a scale in between.
@@ -14,25 +15,31 @@ mod eye_tiles;
 mod globe;
 mod globe_maps;
 mod milky_way;
+mod photo;
 mod pyramid;
 mod sky;
 pub mod sky_tiles;
+mod spikes;
 mod splats;
 mod target;
 
 use std::sync::OnceLock;
 
+use crate::camera::Camera;
 use crate::display::Display;
 use crate::eye::Eye;
 use crate::eye::seeing::Seeing;
 use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
-use crate::plan::{FramePlan, SkyPlan};
+use crate::photo::Photo;
+use crate::photo::exposure::Exposure;
+use crate::plan::{FramePlan, SkyPlan, Splat};
 use crate::units::Xyzv;
 
 use gpu::{Gpu, GpuError, PassTime};
 use picture::{Depth, Picture, PictureTarget};
 use sky_tiles::SkyDetail;
+use target::Target;
 
 /// The pipelines, made once; what a frame needs is made with the frame.
 pub struct Renderer {
@@ -44,6 +51,7 @@ pub struct Renderer {
     splats: splats::SplatPass,
     /// Made when somebody first looks.
     eye: OnceLock<eye::EyePass>,
+    photo: OnceLock<photo::PhotoPass>,
 }
 
 /// A drawn frame and what it cost.
@@ -53,11 +61,35 @@ pub struct Rendered {
     pub times: Vec<PassTime>,
 }
 
-/// A picture, what the eye made of the frame, and what it cost.
+/// Who makes a picture of the frame.
+#[derive(Debug, Clone, Copy)]
+pub enum Viewer<'a> {
+    Eye(&'a Eye),
+    Photo(&'a Photo),
+}
+
+/// How a picture is made of the frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Look<'a> {
+    pub viewer: Viewer<'a>,
+    pub display: &'a Display,
+    pub depth: Depth,
+}
+
+/// What the viewer made of the frame.
+#[derive(Debug, Clone)]
+pub enum Made {
+    Seen(Box<Seeing>),
+    Exposed(Exposure),
+}
+
+/// A picture, how it was made, and what it cost.
 pub struct Looked {
     pub picture: Picture,
-    pub seeing: Seeing,
-    /// By pass; empty when the adapter keeps no time.
+    pub made: Made,
+    /// The frame, if it was asked for.
+    pub frame: Option<HdrFrame>,
+    /// By pass, those of the frame first; empty when the adapter keeps no time.
     pub times: Vec<PassTime>,
 }
 
@@ -68,7 +100,15 @@ impl Renderer {
         let sky = sky::SkyPass::new(&gpu);
         let discs = discs::DiscPass::new(&gpu);
         let splats = splats::SplatPass::new(&gpu);
-        Ok(Renderer { gpu, sky, milky_way: OnceLock::new(), discs, splats, eye: OnceLock::new() })
+        Ok(Renderer {
+            gpu,
+            sky,
+            milky_way: OnceLock::new(),
+            discs,
+            splats,
+            eye: OnceLock::new(),
+            photo: OnceLock::new(),
+        })
     }
 
     /// What draws: the adapter's name and driver.
@@ -83,7 +123,7 @@ impl Renderer {
 
     /// The same, the sky drawn in a way that is given.
     pub fn frame_with(&self, plan: &FramePlan, detail: SkyDetail) -> Result<Rendered, GpuError> {
-        let mut frame = target::Target::new(&self.gpu, &plan.camera)?;
+        let mut frame = Target::new(&self.gpu, &plan.camera)?;
         self.extended(&mut frame, plan, detail);
         self.splats.draw(&mut frame, &plan.splats, &plan.camera);
         let finished = frame.finish()?;
@@ -91,28 +131,82 @@ impl Renderer {
         Ok(Rendered { frame, times: finished.times })
     }
 
-    /// Draws the frame and the picture of it that an eye sees.
-    pub fn seen(
+    /// Draws the frame and makes a picture of it; brings the frame back too if that is wanted.
+    pub fn look(
         &self,
         plan: &FramePlan,
-        eye: &Eye,
-        display: &Display,
-        depth: Depth,
+        look: &Look,
+        wants_frame: bool,
     ) -> Result<Looked, GpuError> {
-        let camera = &plan.camera;
-        let mut frame = target::Target::new(&self.gpu, camera)?;
+        let mut frame = Target::new(&self.gpu, &plan.camera)?;
         self.extended(&mut frame, plan, SkyDetail::Tiles);
+        self.developed(frame, &plan.camera, &plan.splats, look, wants_frame)
+    }
+
+    /// Makes a picture of a frame without points of light, and of points of light.
+    pub fn look_at(
+        &self,
+        frame: &HdrFrame,
+        camera: &Camera,
+        points: &[Splat],
+        look: &Look,
+    ) -> Result<Looked, GpuError> {
+        let frame = Target::of_frame(&self.gpu, camera, frame)?;
+        self.developed(frame, camera, points, look, false)
+    }
+
+    fn developed(
+        &self,
+        mut frame: Target,
+        camera: &Camera,
+        points: &[Splat],
+        look: &Look,
+        wants_frame: bool,
+    ) -> Result<Looked, GpuError> {
         let size_px = [camera.width_px, camera.height_px];
-        let picture = PictureTarget::new(&self.gpu, size_px, depth, display.space);
-        let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
-        let scene = eye::Scene { eye, display, camera, points: &plan.splats };
-        let seeing = pass.picture(&mut frame, &scene, &picture)?;
+        let picture = PictureTarget::new(&self.gpu, size_px, look.depth, look.display.space);
+        let splats = |frame: &mut Target| self.splats.draw(frame, points, camera);
+        let mut absolute = None;
+        let made = match look.viewer {
+            Viewer::Eye(eye) => {
+                let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
+                if eye.wants_points_in_frame() {
+                    splats(&mut frame);
+                }
+                let scene = eye::Scene { eye, display: look.display, camera, points };
+                let seeing = pass.picture(&mut frame, &scene, &picture)?;
+                if wants_frame && !eye.wants_points_in_frame() {
+                    splats(&mut frame);
+                }
+                Made::Seen(Box::new(seeing))
+            }
+            Viewer::Photo(photo) => {
+                let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
+                splats(&mut frame);
+                if wants_frame {
+                    // What the lens adds is no light of the sky.
+                    absolute = Some(frame.read()?);
+                }
+                let exposure = pass.expose(&mut frame, photo, camera)?;
+                let spikes = photo::spikes(photo, &exposure, camera, points);
+                if !spikes.lines.is_empty() {
+                    self.splats.draw(&mut frame, &spikes.taken, camera);
+                    pass.spikes(&mut frame, &spikes.lines);
+                }
+                pass.picture(&mut frame, &exposure, look.display, &picture);
+                Made::Exposed(exposure)
+            }
+        };
         let finished = frame.finish()?;
-        Ok(Looked { picture: picture.read(&self.gpu)?, seeing, times: finished.times })
+        if wants_frame && absolute.is_none() {
+            absolute = Some(target::read_back(&self.gpu, &finished.frame)?);
+        }
+        let picture = picture.read(&self.gpu)?;
+        Ok(Looked { picture, made, frame: absolute, times: finished.times })
     }
 
     /// The light of all that is no point.
-    fn extended(&self, frame: &mut target::Target, plan: &FramePlan, detail: SkyDetail) {
+    fn extended(&self, frame: &mut Target, plan: &FramePlan, detail: SkyDetail) {
         let camera = &plan.camera;
         self.sky.draw(frame, &plan.sky, camera, detail);
         if let Some(milky_way) = &plan.milky_way {

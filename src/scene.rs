@@ -14,12 +14,13 @@ use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
 use crate::light::night_lights::{NightGlow, NightGlowError};
 use crate::light::scintillation::{Scintillation, ScintillationError};
+use crate::photo::{Photo, PhotoError};
 use crate::place::{Place, PlaceError};
 use crate::time::{self, Instant, TimeError};
 use crate::units::Angle;
 
 /// Version of the scene file.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// The share of a pixel that a position may be off by when no tolerance is asked for.
 const TOLERANCE_IN_PIXELS: f64 = 0.1;
@@ -51,6 +52,8 @@ pub enum SceneError {
     Night(#[from] NightGlowError),
     #[error(transparent)]
     Display(#[from] DisplayError),
+    #[error(transparent)]
+    Photo(#[from] PhotoError),
     #[error(transparent)]
     Scintillation(#[from] ScintillationError),
 }
@@ -85,6 +88,9 @@ pub struct Scene {
     pub air: Atmosphere,
     #[serde(default)]
     pub eye: Eye,
+    /// A camera in place of the eye.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub photo: Option<Photo>,
     /// The screen that the picture is for.
     #[serde(default)]
     pub display: Display,
@@ -258,6 +264,7 @@ impl Scene {
         self.sky.as_ref().map_or(Ok(()), ClassicSky::validate)?;
         self.night.validate()?;
         self.display.validate()?;
+        self.photo.as_ref().map_or(Ok(()), Photo::validate)?;
         self.check_numbers()?;
         let tolerance = match self.tolerance_arcsec {
             Some(arcsec) => Angle::from_arcsec(arcsec),
@@ -285,6 +292,10 @@ impl Scene {
             ("eye.exposure_stops", Some(eye.exposure_stops), -40.0, 40.0),
             ("eye.adaptation_cd_m2", eye.adaptation_cd_m2, 1e-7, 1e10),
             ("eye.field_factor", Some(eye.field_factor), 1.0, 10.0),
+            ("eye.coming_from_cd_m2", eye.coming_from_cd_m2, 1e-7, 1e10),
+            ("eye.since_s", Some(eye.since_s), 0.0, 1e9),
+            ("eye.optics.age_years", Some(eye.optics.age_years), 0.0, 100.0),
+            ("eye.optics.pigment", Some(eye.optics.pigment), 0.0, 1.2),
         ];
         for (what, value, low, high) in checks {
             if let Some(value) = value.filter(|value| !(low..=high).contains(value)) {
@@ -328,6 +339,7 @@ mod tests {
             moon: SceneMoon::default(),
             air: Atmosphere::default(),
             eye: Eye::default(),
+            photo: None,
             display: Display::default(),
             marks: Marks::default(),
         }
@@ -351,7 +363,7 @@ mod tests {
         assert!(message.starts_with("line ") && message.contains("lattitude_deg"), "{message}");
         assert!(!message.contains('\n'));
 
-        let text = scene().to_toml().replace("nocturne_scene = 1", "nocturne_scene = 7");
+        let text = scene().to_toml().replace("nocturne_scene = 2", "nocturne_scene = 7");
         assert_eq!(Scene::parse(&text), Err(SceneError::Format(7)));
 
         let mut bad = scene();

@@ -14,7 +14,7 @@ const RANKS: [&[&str]; 11] = [
     &["time", "place", "catalog", "camera"],
     &["ephemeris"],
     &["sky", "almanac", "light::spectrum"],
-    &["air", "eye"],
+    &["air", "eye", "photo", "display"],
     &["light"],
     &["scene"],
     &["plan"],

@@ -8,8 +8,8 @@ use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, GlobeUniform, MeshBandUniform, PlanetUniform,
-    RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, MeshBandUniform,
+    PhotoUniform, PlanetUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -62,6 +62,18 @@ fn uniforms_have_one_layout_on_both_sides() {
         SkyUniform,
         [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
     );
+    let library = parsed("library", &LIBRARY.join("\n"));
+    same_layout!(library, "Display", DisplayUniform, [rgb_from_xyz, shown_from_rgb]);
+    let photo = parsed("photo", &assembled("photo"));
+    let (members, size) = layout(&photo, "Setting");
+    assert_eq!(size, size_of::<PhotoUniform>());
+    let at = |name: &str| members.iter().find(|(member, _)| member == name).map(|(_, at)| *at);
+    assert_eq!(at("rgb_from_balanced"), Some(offset_of!(PhotoUniform, rgb_from_balanced)));
+    assert_eq!(at("natural"), Some(offset_of!(PhotoUniform, natural)));
+    assert_eq!(at("mechanical_root"), Some(offset_of!(PhotoUniform, mechanical_root)));
+    assert_eq!(at("seed"), Some(offset_of!(PhotoUniform, seed)));
+    assert_eq!(at("luminance_from_rgb"), Some(offset_of!(PhotoUniform, luminance_from_rgb)));
+    assert_eq!(at("centre_px"), Some(offset_of!(PhotoUniform, centre_px)));
     let globe = parsed("globe", &assembled("globe"));
     same_layout!(
         globe,

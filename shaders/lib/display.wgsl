@@ -19,9 +19,14 @@ fn gamut(rgb: vec3f, luminance: f32) -> vec3f {
     let kept = grey / max(grey - low, 1e-37);
     let positive = grey + (rgb - grey) * kept;
     let high = max(max(positive.r, positive.g), positive.b);
+    // Half of it moved to the grey of its luminance, or to white, half of it dimmed; what is divided by zero
+    // is within the gamut.
     let white = min(grey, 1.0);
-    let paler = white + (positive - grey) * ((1.0 - white) / max(high - white, 1e-37));
-    return select(positive, 0.5 * paler + 0.5 / high * positive, high > 1.0);
+    let half = 0.5 / (high * (high - white));
+    let paler = (1.0 - white) * high * half;
+    let dimmed = (high - white) * half;
+    let brought = positive * (paler + dimmed) + (0.5 * white - grey * paler);
+    return select(positive, brought, high > 1.0);
 }
 
 // The transfer curve of sRGB, of linear shares from 0 to 1: a polynomial of least maximum in the fourth root,
@@ -38,26 +43,30 @@ fn dither(pixel: vec2f) -> f32 {
     return f32((at.x * 3242174889u + at.y * 2447445414u) >> 8u) * 0x1p-24;
 }
 
-// Codes of a highest one with noise in them, to be rounded.
+// Codes, 0 to 1, with noise in them: rounded by the target they are dithered.
 fn dithered(codes: vec3f, noise: f32) -> vec3f {
+    let one = 1.0 / max(CODE_STEPS, 1.0);
     let centred = 2.0 * noise - 1.0;
-    let triangular = sign(centred) * (1.0 - sqrt(1.0 - abs(centred)));
-    let is_near_an_end = abs(codes - 0.5 * CODE_STEPS) > vec3f(0.5 * CODE_STEPS - 0.5);
-    return codes + select(vec3f(triangular), vec3f(0.5 * centred), is_near_an_end);
+    let triangular = sign(centred) * (one - one * sqrt(1.0 - abs(centred)));
+    let is_near_an_end = abs(codes - 0.5) > vec3f(0.5 - 0.5 * one);
+    return codes + select(vec3f(triangular), vec3f(0.5 * one * centred), is_near_an_end);
 }
 
-// Given X, Y and Z in shares of the screen's white and the pixel, the codes, 0 to 1, as the target
-// of 8 bits takes them or, without CODE_STEPS, as they are.
-fn display_code(display: Display, xyz: vec3f, pixel: vec2f) -> vec4f {
-    let rgb = gamut(display.rgb_from_xyz * xyz, xyz.y);
-    let shown = saturate(display.shown_from_rgb * rgb);
+// Given what is sent to the screen, linear and from 0 to 1, and the pixel, what a target of 8 bits rounds to
+// its codes or, without CODE_STEPS, the codes from 0 to 1 as they are.
+fn shown_code(shown: vec3f, pixel: vec2f) -> vec4f {
     var codes = shown;
     if IS_ENCODED {
         codes = encode(shown);
     }
     if CODE_STEPS > 0.0 {
-        let steps = dithered(codes * CODE_STEPS, dither(pixel));
-        codes = saturate(floor(steps + 0.5) / CODE_STEPS);
+        return vec4f(dithered(codes, dither(pixel)), 1.0);
     }
-    return vec4f(codes, 1.0);
+    return vec4f(saturate(codes), 1.0);
+}
+
+// The same of X, Y and Z in shares of the screen's white.
+fn display_code(display: Display, xyz: vec3f, pixel: vec2f) -> vec4f {
+    let rgb = gamut(display.rgb_from_xyz * xyz, xyz.y);
+    return shown_code(saturate(display.shown_from_rgb * rgb), pixel);
 }

@@ -6,15 +6,9 @@ struct Retina {
     // What the light of the picture of half the resolution counts.
     spread: f32,
     size_px: vec2f,
-    // Texels to a pixel where what is shown is finished at a coarser level, and where points look at
-    // what is around them.
-    soft_scale: f32,
-    around_scale: f32,
-    pad: vec2f,
-}
-
-// Given a pixel of the frame, its light in a level of the pyramid with so many texels to a pixel.
-fn from_level(picture: texture_2d<f32>, between: sampler, pixel: vec2f, scale: f32) -> LuminanceXyzv {
-    let place = scale * pixel / vec2f(textureDimensions(picture));
-    return textureSampleLevel(picture, between, place, 0.0);
+    // A pixel on the picture of half the resolution, on that where what is shown is finished, and on
+    // the one where points look at what is around them: from 0 to 1 across each.
+    half_scale: vec2f,
+    soft_scale: vec2f,
+    around_scale: vec2f,
 }

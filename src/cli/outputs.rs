@@ -4,12 +4,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::export::describe::Description;
+use crate::export::exif::About;
 use crate::export::exr::{self, Attribute};
 use crate::export::{OutputFile, png};
-use crate::image::{HdrFrame, Image};
+use crate::image::{Codes, HdrFrame};
 use crate::light::night::Night;
+use crate::photo::exposure::Exposure;
 use crate::scene::{Scene, Setting};
 
+use super::display::Bits;
+use super::draw::Wanted;
 use super::error::CliError;
 
 /// The files, opened before the work begins, so that none of it is done for nothing.
@@ -23,8 +27,12 @@ pub struct Outputs {
 
 /// A finished picture.
 pub struct Picture {
-    pub frame: HdrFrame,
-    pub seen: Image<[u8; 3]>,
+    /// The light itself.
+    pub frame: Option<HdrFrame>,
+    /// What the eye or the camera made of it.
+    pub codes: Option<Codes>,
+    /// What the camera was set to.
+    pub exposure: Option<Exposure>,
 }
 
 /// What was written.
@@ -78,6 +86,11 @@ impl Outputs {
         !self.png.is_empty() || !self.exr.is_empty()
     }
 
+    /// What of the drawing the files hold.
+    pub fn wanted(&self, bits: Bits) -> Wanted {
+        Wanted { frame: !self.exr.is_empty(), picture: (!self.png.is_empty()).then_some(bits) }
+    }
+
     /// Refuses two outputs of the same name, one of which would be lost.
     fn check_apart(&self) -> Result<(), CliError> {
         let pictures = self.png.iter().chain(&self.exr);
@@ -110,13 +123,20 @@ impl Outputs {
         let mut paths = Vec::new();
         let mut note = |file: &OutputFile| paths.push(file.path().to_owned());
         if let Some(picture) = picture {
-            for file in self.png {
+            let about = About {
+                instant: &setting.instant,
+                place: &setting.place,
+                exposure: picture.exposure.as_ref(),
+            };
+            for (file, codes) in self.png.into_iter().zip(picture.codes.iter().cycle()) {
                 note(&file);
-                png::write(file, &picture.seen)?;
+                png::write_with(file, codes, scene.display.space, Some(&about))?;
             }
-            for file in self.exr {
+            let mut attributes = attributes(setting);
+            attributes.extend(picture.exposure.iter().flat_map(exr::of_exposure));
+            for (file, frame) in self.exr.into_iter().zip(picture.frame.iter().cycle()) {
                 note(&file);
-                exr::write(file, &picture.frame, &attributes(setting))?;
+                exr::write(file, frame, &attributes)?;
             }
         }
         if let Some(file) = self.scene {

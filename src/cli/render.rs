@@ -19,10 +19,13 @@ use crate::plan::classic::ClassicLight;
 use crate::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 
 use super::WhereArgs;
+use super::display::DisplayArgs;
 use super::error::CliError;
+use super::eye::EyeArgs;
 use super::look::{self, Look};
 use super::night_glow::NightGlowArgs;
 use super::outputs::Outputs;
+use super::photo::PhotoArgs;
 use super::progress::Progress;
 use super::{atmosphere, draw, stage, stats, summary};
 
@@ -77,9 +80,12 @@ pub struct RenderArgs {
     /// Let stars and planets twinkle as for the naked eye; the same seed gives the same twinkling
     #[arg(long, value_name = "SEED")]
     scintillation: Option<u64>,
-    /// Brighter (positive) or darker PNG, in factors of two [default: 0]
-    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
-    exposure: Option<f64>,
+    #[command(flatten)]
+    eye: EyeArgs,
+    #[command(flatten)]
+    photo: PhotoArgs,
+    #[command(flatten)]
+    display: DisplayArgs,
     /// No horizon line and cardinal points on the PNG
     #[arg(long)]
     no_marks: bool,
@@ -89,7 +95,7 @@ pub struct RenderArgs {
     /// Write the scene, from which the same picture can be drawn again
     #[arg(long, value_name = "FILE")]
     save_scene: Option<PathBuf>,
-    /// Picture to write: .png (as an eye sees it) or .exr (cd/m2, channels X, Y, Z, V); may be repeated
+    /// Picture to write: .png (as an eye sees it, or a camera) or .exr (cd/m2, channels X, Y, Z, V); may be repeated
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Write where every object is and how bright, as JSON; - for standard output
@@ -181,6 +187,7 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
 pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Result<(), CliError> {
     let mut scene = scene(args, catalogs)?;
     let mut setting = scene.setting()?;
+    let bits = args.display.bits()?;
     let outputs = Outputs::open(&args.output, &args.describe, &args.save_scene)?;
     let mut progress = Progress::new(args.quiet, outputs.steps());
 
@@ -195,7 +202,10 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     let classic = scene.sky.filter(|_| outputs.draws());
     let classic = classic.map(|sky| ClassicLight::of(&sky, &night)).transpose()?;
     let drawn = match outputs.draws() {
-        true => Some(draw::draw(&scene, &setting, &night, catalogs, &mut progress)?),
+        true => {
+            let wanted = outputs.wanted(bits);
+            Some(draw::draw(&scene, &setting, &night, catalogs, wanted, &mut progress)?)
+        }
         false => None,
     };
     let written = progress.step("writing", || {
@@ -262,9 +272,11 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
         moon: SceneMoon::default(),
         air: Atmosphere::clear_over(place.height_m),
         eye: Eye::default(),
+        photo: None,
         display: Display::default(),
         marks: Marks::default(),
     });
+    let had_photo = scene.photo.is_some();
     scene.place = place;
     let at = args.at.as_deref().or(scene.utc.is_empty().then_some("now"));
     if let Some(at) = at {
@@ -289,7 +301,13 @@ fn scene(args: &RenderArgs, catalogs: &Catalogs) -> Result<Scene, CliError> {
     }
     scene.tolerance_arcsec = args.tolerance.or(scene.tolerance_arcsec);
     scene.layers.magnitude_limit = args.magnitude_limit.or(scene.layers.magnitude_limit);
-    scene.eye.exposure_stops = args.exposure.unwrap_or(scene.eye.exposure_stops);
+    scene.eye = args.eye.change(scene.eye)?;
+    scene.display = args.display.change(scene.display)?;
+    scene.photo = args.photo.change(scene.photo)?;
+    if let Some(photo) = &mut scene.photo {
+        let field_is_given = args.fov.is_some() || (args.scene.is_some() && had_photo);
+        args.photo.aim(photo, &mut scene.camera, field_is_given)?;
+    }
     if args.no_marks {
         scene.marks = Marks { horizon: false, cardinal_points: false };
     }

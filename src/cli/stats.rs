@@ -40,7 +40,9 @@ pub fn write(
                 writeln!(out, "  {:<18} {count:>7} skipped: {reason}", "")?;
             }
         }
-        writeln!(out, "Eye adapted to {:.3e} cd/m2", drawn.adaptation_cd_m2)?;
+        if let Some(viewer) = &drawn.viewer {
+            writeln!(out, "{viewer}")?;
+        }
         writeln!(out, "Passes on {}", drawn.adapter)?;
         for (pass, milliseconds) in &drawn.passes {
             writeln!(out, "  {pass:<18} {milliseconds:>9.2} ms")?;

@@ -11,6 +11,7 @@ use exr::prelude::{
 };
 
 use crate::image::HdrFrame;
+use crate::photo::exposure::Exposure;
 
 use super::{ExportError, OutputFile};
 
@@ -19,6 +20,18 @@ use super::{ExportError, OutputFile};
 pub enum Attribute {
     Text(String),
     Number(f64),
+}
+
+/// What the settings of a camera come to, for a frame that it is to take.
+pub fn of_exposure(exposure: &Exposure) -> [(&'static str, Attribute); 5] {
+    [
+        ("shutter_s", exposure.shutter_s),
+        ("iso", exposure.iso),
+        ("f_number", exposure.f_number),
+        ("focal_mm", exposure.focal_mm),
+        ("sensor_width_mm", exposure.sensor_width_mm),
+    ]
+    .map(|(name, value)| (name, Attribute::Number(value)))
 }
 
 /// Names of the channels, in the order of a pixel of the frame.

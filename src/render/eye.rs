@@ -149,7 +149,9 @@ impl EyePass {
             has_grain: scene.eye.grain.is_some(),
         };
         let around = FINISHED_LEVELS.min(pyramid.len());
-        let texels_of = |level: usize| 0.5f32.powi(level as i32);
+        let across = |level: usize| {
+            pyramid.level_px(level).map(|texels| 0.5f32.powi(level as i32) / texels as f32)
+        };
         let work = Work {
             scene,
             seeing: &seeing,
@@ -160,9 +162,9 @@ impl EyePass {
                 in_place: (1.0 - seeing.glare_shares.iter().sum::<f64>()) as f32,
                 spread: 1.0,
                 size_px: size_px.map(|edge| edge as f32),
-                soft_scale: texels_of(tiles.soft_level),
-                around_scale: texels_of(around),
-                pad: [0.0; 2],
+                half_scale: across(1),
+                soft_scale: across(tiles.soft_level),
+                around_scale: across(around),
             },
             shown: table_texture(gpu, "shown", &seeing.shown),
             levels_resolved: row_texture(gpu, seeing.levels_resolved.as_deref().unwrap_or(&[0.0])),
@@ -342,7 +344,9 @@ impl EyePass {
             return pipelines.clone();
         }
         let mut constants = picture_constants(&kind.display, kind.depth).to_vec();
-        constants.push(("HAS_GRAIN", f64::from(u8::from(kind.has_grain))));
+        let is = |truth: bool| f64::from(u8::from(truth));
+        constants.push(("HAS_GRAIN", is(kind.has_grain)));
+        constants.push(("IS_RED", is(kind.display.red)));
         let tile = wgpu::VertexBufferLayout {
             array_stride: size_of::<Tile>() as u64,
             step_mode: wgpu::VertexStepMode::Instance,

@@ -1,7 +1,7 @@
 //! The picture on the device, before it is a file or a window.
 
-use crate::display::ColourSpace;
-use crate::image::Image;
+use crate::display::{ColourSpace, Display};
+use crate::image::{Codes, Image};
 
 use super::gpu::{Gpu, GpuError};
 use super::target::read_pixels;
@@ -40,6 +40,16 @@ pub enum Picture {
     Codes(Image<[u8; 3]>),
     /// Linear shares of white of red, green and blue.
     Linear(Image<[f32; 3]>),
+}
+
+impl Picture {
+    /// The codes that are sent to the display that it was made for.
+    pub fn into_codes(self, display: &Display) -> Codes {
+        match self {
+            Picture::Codes(codes) => Codes::Eight(codes),
+            Picture::Linear(light) => Codes::Sixteen(display.sixteen_bits(&light)),
+        }
+    }
 }
 
 /// The texture of a picture, as codes and as light.

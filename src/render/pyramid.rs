@@ -131,11 +131,11 @@ fn last_three(within: &[f64]) -> [f32; 4] {
 
 impl PyramidPass {
     pub fn new(gpu: &Gpu) -> PyramidPass {
-        let pipeline = |fragment, targets| {
+        let pipeline = |vertex, fragment, targets| {
             gpu.chain_pipeline(&Stage {
                 label: "pyramid",
                 source: shaders::assembled("pyramid"),
-                entries: ["vertex", fragment],
+                entries: [vertex, fragment],
                 constants: &[],
                 targets,
                 buffers: &[],
@@ -143,11 +143,11 @@ impl PyramidPass {
             })
         };
         PyramidPass {
-            first: pipeline("first", &[FRAME_FORMAT]),
-            halved: pipeline("halved", &[FRAME_FORMAT]),
-            spread: pipeline("spread", &[FRAME_FORMAT]),
-            spread_and_blurred: pipeline("spread_and_blurred", &[FRAME_FORMAT; 2]),
-            seen: pipeline("seen", &[FRAME_FORMAT]),
+            first: pipeline("vertex", "first", &[FRAME_FORMAT]),
+            halved: pipeline("vertex", "halved", &[FRAME_FORMAT]),
+            spread: pipeline("upward", "spread", &[FRAME_FORMAT]),
+            spread_and_blurred: pipeline("upward", "spread_and_blurred", &[FRAME_FORMAT; 2]),
+            seen: pipeline("upward", "seen", &[FRAME_FORMAT]),
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
         }
     }

@@ -12,7 +12,7 @@ const RETINA: &str = include_str!("../../shaders/lib/retina.wgsl");
 const DISPLAY: &str = include_str!("../../shaders/lib/display.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 12] = [
+pub const SHADERS: [(&str, &[&str]); 15] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("milky-way", &[QUANTITIES, CAMERA, include_str!("../../shaders/milky_way.wgsl")]),
@@ -38,10 +38,13 @@ pub const SHADERS: [(&str, &[&str]); 12] = [
         ],
     ),
     ("point-light", &[QUANTITIES, include_str!("../../shaders/point_light.wgsl")]),
+    ("spikes", &[QUANTITIES, CAMERA, include_str!("../../shaders/spikes.wgsl")]),
+    ("meter", &[QUANTITIES, CAMERA, include_str!("../../shaders/meter.wgsl")]),
+    ("photo", &[QUANTITIES, DISPLAY, include_str!("../../shaders/photo.wgsl")]),
 ];
 
 /// The functions without bindings, for the probes that compare them with their twins.
-pub const LIBRARY: &[&str] = &[QUANTITIES, CAMERA, SPLAT];
+pub const LIBRARY: &[&str] = &[QUANTITIES, CAMERA, SPLAT, DISPLAY];
 
 /// The whole text of a shader.
 pub fn assembled(pass: &str) -> String {

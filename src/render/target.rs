@@ -48,6 +48,7 @@ impl<'g> Target<'g> {
             format: FRAME_FORMAT,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT
                 | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::COPY_DST
                 | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
@@ -69,6 +70,26 @@ impl<'g> Target<'g> {
             is_lit: false,
             gpu,
         })
+    }
+
+    /// A frame that is there already.
+    pub fn of_frame(
+        gpu: &'g Gpu,
+        camera: &Camera,
+        frame: &HdrFrame,
+    ) -> Result<Target<'g>, GpuError> {
+        let (width_px, height_px) = (frame.width_px(), frame.height_px());
+        let mut target = Target::new(gpu, &Camera { width_px, height_px, ..*camera })?;
+        target.is_lit = true;
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(width_px * size_of::<[f32; 4]>() as u32),
+            rows_per_image: None,
+        };
+        let texels = bytemuck::cast_slice(frame.pixels());
+        let place = target.texture.as_image_copy();
+        gpu.queue.write_texture(place, texels, layout, target.texture.size());
+        Ok(target)
     }
 
     /// Records one pass over the frame. The first one finds it black.
@@ -167,6 +188,12 @@ impl<'g> Target<'g> {
         let next = self.gpu.device.create_command_encoder(&Default::default());
         let recorded = std::mem::replace(&mut self.encoder, next);
         self.gpu.queue.submit([recorded.finish()]);
+    }
+
+    /// Draws everything recorded so far and brings the frame back.
+    pub fn read(&mut self) -> Result<HdrFrame, GpuError> {
+        self.submit();
+        read_back(self.gpu, &self.texture)
     }
 
     /// Draws everything recorded and says what it cost.

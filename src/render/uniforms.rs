@@ -6,7 +6,7 @@
 //! what is read for every pixel and never branched on is a uniform: that of the globe.
 
 use bytemuck::{Pod, Zeroable};
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
@@ -16,6 +16,8 @@ use crate::light::belts;
 use crate::light::disc_light::disc_axes;
 use crate::light::limb_law::{LIMB_COSINE, LimbLaw};
 use crate::light::saturn_rings::RINGS;
+use crate::photo::exposure::Exposure;
+use crate::photo::lens::Spike;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
@@ -35,19 +37,22 @@ pub struct CameraUniform {
     pub projection: u32,
 }
 
-/// `Display` of `shaders/lib/display.wgsl`.
+/// `DisplayRows` of `shaders/eye.wgsl`.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct DisplayUniform {
-    pub rgb_from_xyz: [[f32; 4]; 3],
-    pub shown_from_rgb: [[f32; 4]; 3],
+    pub rows: [[f32; 4]; 3],
 }
 
 impl DisplayUniform {
     pub fn of(display: &Display) -> DisplayUniform {
+        let rgb_from_xyz = display.rgb_from_xyz();
+        let luminance = rgb_from_xyz.inverse().row(1);
         DisplayUniform {
-            rgb_from_xyz: columns(display.rgb_from_xyz()),
-            shown_from_rgb: columns(display.shown_from_rgb()),
+            rows: [0, 1, 2].map(|primary| {
+                let row = rgb_from_xyz.row(primary);
+                [row.x, row.y, row.z, luminance[primary]].map(|v| v as f32)
+            }),
         }
     }
 }
@@ -59,6 +64,72 @@ pub fn picture_constants(display: &Display, depth: Depth) -> [(&'static str, f64
         Depth::Linear => (false, 0.0),
     };
     [("IS_ENCODED", f64::from(u8::from(is_encoded))), ("CODE_STEPS", steps)]
+}
+
+/// `Setting` of `shaders/photo.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PhotoUniform {
+    pub balanced_from_xyz: [[f32; 4]; 3],
+    pub rgb_from_balanced: [[f32; 4]; 3],
+    pub luminance_from_balanced: [f32; 3],
+    pub natural: f32,
+    pub shot: [f32; 3],
+    pub mechanical_root: f32,
+    pub read: [f32; 3],
+    pub seed: u32,
+    pub luminance_from_rgb: [f32; 3],
+    pub pad: f32,
+    pub centre_px: [f32; 2],
+    pub end: [f32; 2],
+}
+
+impl PhotoUniform {
+    pub fn of(exposure: &Exposure, display: &Display) -> PhotoUniform {
+        let [width, height] = exposure.size_px;
+        let falloff = exposure.falloff;
+        let to_corner = (width * width + height * height) / 4.0;
+        let balance = exposure.balance;
+        let rgb_from_balanced = display.rgb_from_xyz() * exposure.xyz_from_balanced;
+        let luminance_from_rgb = display.rgb_from_xyz().inverse().row(1);
+        let triple = |v: DVec3| v.as_vec3().to_array();
+        PhotoUniform {
+            balanced_from_xyz: columns(DMat3::from_diagonal(balance) * exposure.raw_from_xyz),
+            rgb_from_balanced: columns(rgb_from_balanced),
+            luminance_from_balanced: triple(exposure.xyz_from_balanced.row(1)),
+            natural: (falloff.natural / (exposure.focal_px * exposure.focal_px)) as f32,
+            shot: triple(balance * exposure.shot),
+            mechanical_root: (falloff.mechanical.sqrt() / to_corner) as f32,
+            read: triple(balance * balance * exposure.read),
+            seed: exposure.seed,
+            luminance_from_rgb: triple(luminance_from_rgb),
+            pad: 0.0,
+            centre_px: [(width / 2.0) as f32, (height / 2.0) as f32],
+            end: [0.0; 2],
+        }
+    }
+}
+
+/// `Spike` of `shaders/spikes.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct SpikeInstance {
+    pub centre_px: [f32; 2],
+    pub direction: [f32; 2],
+    pub half_size_px: [f32; 2],
+    pub amplitude: [f32; 4],
+}
+
+impl SpikeInstance {
+    pub fn of(spike: &Spike) -> SpikeInstance {
+        let pair = |pair: [f64; 2]| pair.map(|v| v as f32);
+        SpikeInstance {
+            centre_px: pair(spike.centre_px),
+            direction: pair(spike.direction),
+            half_size_px: pair([spike.half_length_px, spike.half_width_px]),
+            amplitude: spike.amplitude.to_f32(),
+        }
+    }
 }
 
 /// `Sky` of `shaders/skylight.wgsl`.
@@ -114,9 +185,9 @@ pub struct RetinaUniform {
     pub in_place: f32,
     pub spread: f32,
     pub size_px: [f32; 2],
-    pub soft_scale: f32,
-    pub around_scale: f32,
-    pub pad: [f32; 2],
+    pub half_scale: [f32; 2],
+    pub soft_scale: [f32; 2],
+    pub around_scale: [f32; 2],
 }
 
 /// `Grain` of `shaders/eye.wgsl`.
