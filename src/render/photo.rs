@@ -37,6 +37,7 @@ pub struct PhotoPass {
     kind: PhotoKind,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
+    nearest: wgpu::Sampler,
 }
 
 impl PhotoPass {
@@ -57,14 +58,16 @@ impl PhotoPass {
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         };
+        let nearest = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("photo"),
-            entries: &[entry(0, uniform), entry(1, frame)],
+            entries: &[entry(0, uniform), entry(1, frame), entry(2, nearest)],
         });
         let source = shaders::assembled("photo");
         let pipeline =
             gpu.picture_pipeline("photo", &source, &layout, &kind.constants, kind.format);
-        PhotoPass { kind, layout, pipeline }
+        let nearest = gpu.device.create_sampler(&wgpu::SamplerDescriptor::default());
+        PhotoPass { kind, layout, pipeline, nearest }
     }
 
     /// What it was made for.
@@ -87,7 +90,11 @@ impl PhotoPass {
             gpu.buffer("photo", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let group = gpu.bind_mixed(
             &self.layout,
-            &[(0, setting.as_entire_binding()), (1, wgpu::BindingResource::TextureView(frame))],
+            &[
+                (0, setting.as_entire_binding()),
+                (1, wgpu::BindingResource::TextureView(frame)),
+                (2, wgpu::BindingResource::Sampler(&self.nearest)),
+            ],
         );
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("photo"),
