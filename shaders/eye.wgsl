@@ -29,6 +29,7 @@ struct Grain {
 @group(0) @binding(9) var<uniform> grain: Grain;
 @group(0) @binding(10) var noise: texture_2d<f32>;
 @group(0) @binding(11) var repeated: sampler;
+@group(0) @binding(12) var nearest: sampler;
 
 override HAS_GRAIN: bool = false;
 // Whether all is shown in red.
@@ -47,6 +48,8 @@ struct Corner {
     // The same on the coarse picture, and the place in the noise.
     @location(4) @interpolate(flat) coarse: vec4f,
     @location(5) @interpolate(flat) grain: vec2f,
+    // A pixel on the frame, from 0 to 1 across it.
+    @location(6) @interpolate(flat) pixel: vec2f,
 }
 
 @vertex
@@ -61,26 +64,27 @@ fn vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> Corner
         vec4f(retina.in_place, retina.spread, retina.half_scale),
         vec4f(retina.soft_scale, grain.place / 256.0),
         vec2f(1.0 / (256.0 * grain.size_px), grain.strength),
+        1.0 / retina.size_px,
     );
 }
 
 // Where the eye resolves all that the frame holds, and nothing bright is near.
 @fragment
 fn plain(corner: Corner) -> @location(0) vec4f {
-    return codes(corner, seen_of(shown, between, textureLoad(frame, vec2u(corner.position.xy), 0)));
+    return codes(corner, seen_of(shown, between, at_pixel(corner)));
 }
 
 // Where it resolves all.
 @fragment
 fn sharp(corner: Corner) -> @location(0) vec4f {
-    let light = textureLoad(frame, vec2u(corner.position.xy), 0);
+    let light = at_pixel(corner);
     return codes(corner, seen_with_glare(corner, light));
 }
 
 // Where it resolves some.
 @fragment
 fn mixed(corner: Corner) -> @location(0) vec4f {
-    let fine = textureLoad(frame, vec2u(corner.position.xy), 0);
+    let fine = at_pixel(corner);
     let soft = textureSampleLevel(blurred, between, corner.position.xy * corner.retina.zw, 0.0);
     let lost = clamp(level_resolved(levels_resolved, between, soft), 0.0, 1.0);
     return codes(corner, seen_with_glare(corner, mix(fine, soft, lost)));
@@ -90,6 +94,11 @@ fn mixed(corner: Corner) -> @location(0) vec4f {
 @fragment
 fn soft(corner: Corner) -> @location(0) vec4f {
     return codes(corner, textureSampleLevel(coarse, between, corner.position.xy * corner.coarse.xy, 0.0));
+}
+
+// The frame at a pixel: sampled at its centre, which the software driver does faster than loading it.
+fn at_pixel(corner: Corner) -> LuminanceXyzv {
+    return textureSampleLevel(frame, nearest, corner.position.xy * corner.pixel, 0.0);
 }
 
 // Given the light that is resolved at a pixel, what is shown there.

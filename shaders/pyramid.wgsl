@@ -21,6 +21,7 @@ struct Step {
 // The step up of a picture that is blurred.
 @group(0) @binding(4) var blurred: texture_2d<f32>;
 @group(0) @binding(5) var levels_resolved: texture_2d<f32>;
+@group(0) @binding(7) var nearest: sampler;
 
 struct Corner {
     @builtin(position) position: vec4f,
@@ -76,7 +77,8 @@ fn luminance(corner: Corner) -> LuminanceXyzv {
     let texel = vec2u(corner.position.xy);
     let texels = textureDimensions(picture);
     let part = within(texel.x, texels.x, corner.within_x) * within(texel.y, texels.y, corner.within_y);
-    return textureLoad(picture, texel, 0) / part;
+    let place = corner.position.xy / vec2f(texels);
+    return textureSampleLevel(picture, nearest, place, 0.0) / part;
 }
 
 // Given a texel of this level, its light in a picture of the coarser one.

@@ -221,7 +221,7 @@ pub fn dither(x: u32, y: u32) -> f64 {
 fn dithered(code: f64, noise: f64) -> f64 {
     let centred = 2.0 * noise - 1.0;
     let triangular = centred.signum() * (1.0 - (1.0 - centred.abs()).sqrt());
-    let is_near_an_end = code < 0.5 || code > STEPS - 0.5;
+    let is_near_an_end = !(0.5..=STEPS - 0.5).contains(&code);
     code + if is_near_an_end { 0.5 * centred } else { triangular }
 }
 

@@ -251,14 +251,14 @@ impl EyePass {
             (9, grain.as_entire_binding()),
             (10, view(&noise)),
             (11, wgpu::BindingResource::Sampler(&self.repeated)),
+            (12, wgpu::BindingResource::Sampler(&self.pyramid.nearest)),
         ];
         let pipelines = &work.pipelines;
-        let graininess = [9, 10, 11];
         let kinds: [(&wgpu::RenderPipeline, &[Tile], &[u32]); 4] = [
-            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4]),
-            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5]),
-            (&pipelines.mixed, &tiles.mixed, &[0, 1, 2, 3, 4, 5, 6, 7]),
-            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 8]),
+            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4, 9, 10, 11, 12]),
+            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5, 9, 10, 11, 12]),
+            (&pipelines.mixed, &tiles.mixed, &[0, 1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12]),
+            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 8, 9, 10, 11]),
         ];
         let draws: Vec<_> = kinds
             .into_iter()
@@ -266,7 +266,7 @@ impl EyePass {
             .map(|(pipeline, tiles, needed)| {
                 let bound: Vec<_> = everything
                     .iter()
-                    .filter(|(number, _)| needed.contains(number) || graininess.contains(number))
+                    .filter(|(number, _)| needed.contains(number))
                     .cloned()
                     .collect();
                 let group = gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);

@@ -200,6 +200,11 @@ impl Gpu {
         })
     }
 
+    /// Reads the nearest texel.
+    pub fn nearest_sampler(&self) -> wgpu::Sampler {
+        self.device.create_sampler(&wgpu::SamplerDescriptor::default())
+    }
+
     pub fn texture(
         &self,
         label: &str,

@@ -44,6 +44,7 @@ impl Kind {
 /// The pipelines.
 pub struct PhotoPass {
     meter: wgpu::RenderPipeline,
+    nearest: wgpu::Sampler,
     /// Made when first asked for.
     pipelines: Mutex<Vec<(Kind, wgpu::RenderPipeline)>>,
     spikes: OnceLock<SpikePass>,
@@ -95,6 +96,7 @@ impl PhotoPass {
                 buffers: &[],
                 adds: false,
             }),
+            nearest: gpu.nearest_sampler(),
             pipelines: Mutex::default(),
             spikes: OnceLock::new(),
         }
@@ -148,7 +150,11 @@ impl PhotoPass {
         let light = frame.view();
         let group = gpu.bind_mixed(
             &pipeline.get_bind_group_layout(0),
-            &[(0, setting.as_entire_binding()), (1, wgpu::BindingResource::TextureView(&light))],
+            &[
+                (0, setting.as_entire_binding()),
+                (1, wgpu::BindingResource::TextureView(&light)),
+                (2, wgpu::BindingResource::Sampler(&self.nearest)),
+            ],
         );
         frame.picture_pass("photo", &[picture.codes()], |pass| fill(pass, &pipeline, &group));
     }

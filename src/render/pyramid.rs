@@ -23,6 +23,7 @@ pub struct PyramidPass {
     spread_and_blurred: wgpu::RenderPipeline,
     seen: wgpu::RenderPipeline,
     pub between: wgpu::Sampler,
+    pub nearest: wgpu::Sampler,
 }
 
 /// A level of the pyramid.
@@ -149,6 +150,7 @@ impl PyramidPass {
             spread_and_blurred: pipeline("upward", "spread_and_blurred", &[FRAME_FORMAT; 2]),
             seen: pipeline("upward", "seen", &[FRAME_FORMAT]),
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
+            nearest: gpu.nearest_sampler(),
         }
     }
 
@@ -238,6 +240,7 @@ impl PyramidPass {
             (1, view(&level.light)),
             (2, view(spread)),
             (3, step.as_entire_binding()),
+            (7, wgpu::BindingResource::Sampler(&self.nearest)),
         ];
         if up.blurs || shown.is_some() {
             bound.extend([(4, view(blurred)), (5, view(up.levels_resolved))]);
