@@ -1,7 +1,8 @@
 //! What a frame costs: the plan on the CPU, the passes on the GPU, and the long computations.
 //!
-//! `cargo bench --bench frame`; `cargo bench --bench frame -- stars` for what stars cost alone. Times are medians, in milliseconds; ratios are to the trivial pass
-//! of the same run and size, the sky of a plan without any light, so that machines compare.
+//! `cargo bench --bench frame`; `cargo bench --bench frame -- stars` for what stars cost alone, and
+//! `-- eye` for what an eye and a camera cost. Times are medians, in milliseconds; ratios are to the
+//! trivial pass of the same run and size, the sky of a plan without any light, so that machines compare.
 //! Without a graphics adapter only the CPU's part is printed, and the reason.
 
 use std::borrow::Borrow;
@@ -14,19 +15,21 @@ use nocturne::air::Atmosphere;
 use nocturne::air::scattering::{Quality, SKY_NODES_NM, ScatteringTables};
 use nocturne::camera::Camera;
 use nocturne::catalog::{CatalogError, Catalogs, MilkyWay, MoonMaps, Star};
+use nocturne::display::Display;
 use nocturne::ephemeris::{Body, Ephemeris};
-use nocturne::eye::Eye;
+use nocturne::eye::{Eye, Model};
 use nocturne::frame::Dir;
-use nocturne::image::HdrFrame;
 use nocturne::light::night::Night;
 use nocturne::light::star_light::StarLight;
 use nocturne::light::sun;
+use nocturne::photo::Photo;
 use nocturne::plan::data::SkyData;
 use nocturne::plan::lay::{Kept, lay_in};
 use nocturne::plan::skylight::{COMPUTED_SHAPE, SolvedAir};
 use nocturne::plan::{FramePlan, SkyPlan, Splat};
-use nocturne::render::Renderer;
+use nocturne::render::picture::Depth;
 use nocturne::render::sky_tiles::{SkyDetail, tiles};
+use nocturne::render::{Look, Renderer, Viewer};
 use nocturne::scene::{Layers, Scene, Setting};
 use nocturne::sky::SkyState;
 use nocturne::sky::star_index::StarIndex;
@@ -46,6 +49,21 @@ const MOONS: [(&str, &str, f64); 4] = [
     ("nine days old", "2026-08-22T04:00:00Z", 1.0),
     ("nearly full", "2026-08-27T06:00:00Z", 1.0),
 ];
+/// What viewers look at: the same skies, and dusk.
+const VIEWED: [(&str, &str); 4] = [SKIES[0], SKIES[1], ("dusk", "2026-08-13T02:45:00Z"), SKIES[2]];
+/// The passes of viewers.
+const VIEWING: [&str; 10] = [
+    "half",
+    "light of points",
+    "coarser",
+    "glare",
+    "retina",
+    "seen",
+    "seeing",
+    "points",
+    "meter",
+    "photo",
+];
 const SIZES: [(u32, u32); 2] = [(1280, 720), (1920, 1080)];
 const SPLATS: [usize; 3] = [1000, 9096, 90_960];
 /// Repetitions whose median is taken: of frames, and of what takes a second.
@@ -58,6 +76,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return stars(&Renderer::new()?, &catalogs);
     }
     let moon_maps = catalogs.moon_maps()?;
+    if std::env::args().any(|argument| argument == "eye") {
+        return viewers(&Renderer::new()?, &catalogs, &moon_maps);
+    }
     computations();
     println!("\nPlans, ms                          size   Night::of         lay  splats  discs");
     let mut plans = Vec::new();
@@ -106,13 +127,65 @@ fn main() -> Result<(), Box<dyn Error>> {
             let cost = passes(&renderer, &FramePlan { splats, ..empty(night.camera) })?;
             line(&format!("{count} splats"), "splats", cost.of("splats"));
         }
-        let frame = renderer.frame(night)?.frame;
-        line("Eye::see", "CPU", see_ms(&frame));
     }
     stars(&renderer, &catalogs)?;
+    viewers(&renderer, &catalogs, &moon_maps)?;
     for (phase, utc, field_deg) in MOONS {
         println!("The Moon, {phase}, in a field of {field_deg}°, 1920x1080");
         moon(&renderer, utc, field_deg, &catalogs, &moon_maps)?;
+    }
+    Ok(())
+}
+
+/// What an eye and a camera cost, after the frame.
+fn viewers(
+    renderer: &Renderer,
+    catalogs: &Catalogs,
+    moon_maps: &MoonMaps,
+) -> Result<(), Box<dyn Error>> {
+    println!("\nPlans, ms                          size   Night::of         lay  splats  discs");
+    let mut plans = Vec::new();
+    for size in [(960, 540), (1920, 1080), (3840, 2160)] {
+        for (name, utc) in VIEWED {
+            plans.push((name, plan(name, utc, size, catalogs, moon_maps)?));
+        }
+    }
+    println!("Viewers on {}: medians of the passes after the frame, ms", renderer.adapter());
+    let (eye, paper) = (Eye::default(), Eye { model: Model::Paper, ..Eye::default() });
+    let (camera, display) = (Photo::default(), Display::default());
+    let viewers = [
+        ("eye", Viewer::Eye(&eye)),
+        ("paper", Viewer::Eye(&paper)),
+        ("camera", Viewer::Photo(&camera)),
+    ];
+    for (name, plan) in &plans {
+        let size = format!("{}x{}", plan.camera.width_px, plan.camera.height_px);
+        let trivial_ms = passes(renderer, &empty(plan.camera))?.of("sky");
+        for (who, viewer) in viewers {
+            let look = Look { viewer, display: &display, depth: Depth::Codes };
+            renderer.look(plan, &look, false)?;
+            let mut runs = Vec::new();
+            for _ in 0..FRAMES {
+                let mut by_pass: Vec<(String, f64)> = Vec::new();
+                for time in renderer.look(plan, &look, false)?.times {
+                    match by_pass.iter_mut().find(|(pass, _)| *pass == time.pass) {
+                        Some((_, ms)) => *ms += time.milliseconds,
+                        None => by_pass.push((time.pass, time.milliseconds)),
+                    }
+                }
+                by_pass.retain(|(pass, _)| VIEWING.contains(&pass.as_str()));
+                runs.push(by_pass);
+            }
+            let total_ms = median(runs.iter().map(|run| run.iter().map(|(_, ms)| ms).sum()));
+            print!(
+                "  {name:14} {size:>9} {who:7} {total_ms:7.1} ms {:6.2}:",
+                total_ms / trivial_ms
+            );
+            for (number, (pass, _)) in runs[0].iter().enumerate() {
+                print!(" {pass} {:.1}", median(runs.iter().map(|run| run[number].1)));
+            }
+            println!();
+        }
     }
     Ok(())
 }
@@ -325,7 +398,7 @@ fn plan(
 fn setting(utc: &str, width_px: u32, height_px: u32) -> Result<Setting, Box<dyn Error>> {
     let scene = format!(
         r#"
-        nocturne_scene = 1
+        nocturne_scene = 2
         utc = "{utc}"
         [place]
         latitude_deg = 35.198
@@ -395,10 +468,6 @@ fn passes_of<P: Borrow<FramePlan>>(
         passes: names.enumerate().map(|(number, name)| (name, of_pass(number))).collect(),
         wall_ms: median(runs.iter().map(|run| run.0)),
     })
-}
-
-fn see_ms(frame: &HdrFrame) -> f64 {
-    median_ms(FRAMES, || Eye::default().see(frame, Angle::from_arcmin(3.0)))
 }
 
 /// Median of repetitions, after one to warm up.

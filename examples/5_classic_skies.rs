@@ -13,8 +13,10 @@ use nocturne::air::classic::{ClassicModel, ClassicSky, SkyUnderSun};
 use nocturne::air::scattering::{
     Matrix, Quality, SKY_NODES_NM, ScatteringTables, reconstruction_matrix,
 };
+use nocturne::display::Display;
 use nocturne::export::{OutputFile, png};
 use nocturne::eye::Eye;
+use nocturne::eye::glare::Glare;
 use nocturne::image::{HdrFrame, Image};
 use nocturne::light::spectrum::{FIRST_NM, LEN, STEP_NM, Spectrum, chromaticity_xy, wavelength_nm};
 use nocturne::light::sun;
@@ -201,8 +203,9 @@ fn picture_row(skies: &[SkyUnderSun], ours: &Ours, sun: Angle) -> Image<[u8; 3]>
             *pixel = light.to_f32();
         }
     }
-    let eye = Eye { glare: false, ..Eye::default() };
-    eye.see(&frame, Angle::from_deg(1.0)).picture
+    let eye = Eye { glare: Glare::None, ..Eye::default() };
+    let display = Display::default();
+    eye.see(&frame, Angle::from_deg(1.0), &display).codes(&display)
 }
 
 /// Pictures of one width below each other.

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use nocturne::air::Atmosphere;
 use nocturne::camera::Projection;
 use nocturne::catalog::Catalogs;
+use nocturne::display::Display;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::export::{OutputFile, png};
 use nocturne::eye::Eye;
@@ -17,7 +18,8 @@ use nocturne::image::Image;
 use nocturne::light::night::Night;
 use nocturne::light::night_lights::NightGlow;
 use nocturne::plan::lay::lay;
-use nocturne::render::Renderer;
+use nocturne::render::picture::{Depth, Picture};
+use nocturne::render::{Look, Renderer, Viewer};
 use nocturne::scene::{FORMAT, Layers, Marks, Scene, SceneCamera, SceneMoon, ScenePlace};
 use nocturne::sky::{BodyState, SkyState};
 use nocturne::units::Angle;
@@ -134,6 +136,8 @@ impl Studio {
             night: NightGlow::default(),
             moon: SceneMoon::default(),
             eye: Eye::default(),
+            photo: None,
+            display: Display::default(),
             marks: Marks { horizon: false, cardinal_points: false },
         }
     }
@@ -144,9 +148,13 @@ impl Studio {
             SkyState::at(&self.ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
         let night = Night::of(sky, self.catalogs.stars()?, &scene.air);
         let (plan, _) = lay(&setting, &scene.layers, &night, &self.catalogs)?;
-        let frame = self.renderer.frame(&plan)?.frame;
         let eye = Eye { adaptation_cd_m2, ..scene.eye.clone() };
-        Ok(eye.see(&frame, setting.camera.pixel_angle()).picture)
+        let viewer = Viewer::Eye(&eye);
+        let look = Look { viewer, display: &scene.display, depth: Depth::Codes };
+        match self.renderer.look(&plan, &look, false)?.picture {
+            Picture::Codes(picture) => Ok(picture),
+            Picture::Linear(_) => Err("no codes were asked for".into()),
+        }
     }
 }
 

@@ -34,6 +34,7 @@ pub mod rods;
 pub mod seeing;
 pub mod threshold;
 pub mod tone_curve;
+pub mod twin;
 
 use serde::{Deserialize, Serialize};
 

@@ -29,7 +29,7 @@ fn main() {
 /// The Sun alone in the middle of a square picture.
 fn sun(utc: &str, field_of_view_deg: f64, width_px: u32) -> Result<Scene, Failed> {
     let text = format!(
-        "nocturne_scene = 1\nutc = \"{utc}\"\n[place]\nlatitude_deg = 25.54\nlongitude_deg = -103.41\nheight_m = 1120.0\n\
+        "nocturne_scene = 2\nutc = \"{utc}\"\n[place]\nlatitude_deg = 25.54\nlongitude_deg = -103.41\nheight_m = 1120.0\n\
          [camera]\nazimuth_deg = 180.0\naltitude_deg = 70.0\nfield_of_view_deg = {field_of_view_deg}\nprojection = \"perspective\"\n\
          width_px = {width_px}\nheight_px = {width_px}\n"
     );

@@ -10,14 +10,13 @@ mod support;
 use std::path::{Path, PathBuf};
 
 use libtest_mimic::Failed;
-use nocturne::camera::Camera;
 use nocturne::export::{OutputFile, exr, png};
 use nocturne::image::HdrFrame;
 use nocturne::overlay;
-use nocturne::render::Renderer;
+use nocturne::render::picture::Depth;
+use nocturne::render::{Look, Renderer, Viewer};
 use nocturne::scene::Scene;
-use nocturne::units::Angle;
-use support::{GpuTest, check, drawn};
+use support::{GpuTest, check, drawn, laid};
 
 /// Set to `write` to draw the goldens again.
 const WRITE_VARIABLE: &str = "NOCTURNE_GOLDENS";
@@ -46,25 +45,25 @@ fn main() {
 
 fn golden(renderer: &Renderer, path: &Path) -> Result<(), Failed> {
     let scene = Scene::parse(&std::fs::read_to_string(path)?)?;
-    let (frame, setting, night) = drawn(renderer, &scene)?;
     if std::env::var(WRITE_VARIABLE).is_ok_and(|value| value == "write") {
-        return write(&scene, &frame, &setting.camera, night.horizon, path);
+        return write(renderer, &scene, path);
     }
+    let (frame, _, _) = drawn(renderer, &scene)?;
     let (golden, _) = exr::read(&path.with_extension("exr"))?;
     compare(&frame, &golden)
 }
 
-fn write(
-    scene: &Scene,
-    frame: &HdrFrame,
-    camera: &Camera,
-    horizon: Angle,
-    path: &Path,
-) -> Result<(), Failed> {
-    exr::write(OutputFile::create(&path.with_extension("exr"))?, frame, &[])?;
-    let mut seen = scene.eye.see(frame, camera.pixel_angle()).picture;
-    overlay::draw(scene.marks, &mut seen, camera, horizon);
-    Ok(png::write(OutputFile::create(&path.with_extension("png"))?, &seen)?)
+fn write(renderer: &Renderer, scene: &Scene, path: &Path) -> Result<(), Failed> {
+    let (plan, _, setting, night) = laid(scene)?;
+    let viewer = scene.photo.as_ref().map_or(Viewer::Eye(&scene.eye), Viewer::Photo);
+    let look = Look { viewer, display: &scene.display, depth: Depth::Codes };
+    let looked = renderer.look(&plan, &look, true)?;
+    let frame = looked.frame.ok_or("no frame came with the picture")?;
+    exr::write(OutputFile::create(&path.with_extension("exr"))?, &frame, &[])?;
+    let mut codes = looked.picture.into_codes(&scene.display);
+    overlay::draw(scene.marks, &mut codes, &setting.camera, night.horizon);
+    let file = OutputFile::create(&path.with_extension("png"))?;
+    Ok(png::write_with(file, &codes, scene.display.space, None)?)
 }
 
 fn compare(frame: &HdrFrame, golden: &HdrFrame) -> Result<(), Failed> {

@@ -23,7 +23,7 @@ use support::{GpuTest, check};
 
 /// Nothing but the Moon, through air that does not bend light.
 const NIGHT: &str = r#"
-nocturne_scene = 1
+nocturne_scene = 2
 utc = "2025-10-07T03:47:33Z"
 tolerance_arcsec = 0.1
 [place]

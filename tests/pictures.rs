@@ -19,7 +19,7 @@ use support::{GpuTest, check, drawn, illuminance, laid};
 
 /// A moonless winter night: Orion, Sirius and Jupiter high in the south.
 const NIGHT: &str = r#"
-nocturne_scene = 1
+nocturne_scene = 2
 utc = "2026-01-18T06:00:00Z"
 [place]
 name = "Flagstaff"

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use nocturne::air::Atmosphere;
 use nocturne::camera::Projection;
 use nocturne::catalog::Catalogs;
+use nocturne::display::Display;
 use nocturne::ephemeris::Ephemeris;
 use nocturne::export::describe::{DescribedObject, Description};
 use nocturne::eye::Eye;
@@ -60,6 +61,8 @@ fn scene(time: &str, place: &[f64]) -> Scene {
         moon: SceneMoon::default(),
         air: Atmosphere::default(),
         eye: Eye::default(),
+        photo: None,
+        display: Display::default(),
         marks: Marks::default(),
     }
 }

@@ -21,7 +21,7 @@ use nocturne::store::Store;
 use nocturne::units::{Angle, Xyzv};
 
 const FLAGSTAFF: &str = r#"
-nocturne_scene = 1
+nocturne_scene = 2
 utc = "2026-01-18T06:00:00Z"
 [place]
 latitude_deg = 35.19807

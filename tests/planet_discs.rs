@@ -17,7 +17,7 @@ use support::{GpuTest, check, drawn, illuminance, laid};
 
 /// Flagstaff by night and by day alike: the air is not lit.
 const SCENE: &str = r#"
-nocturne_scene = 1
+nocturne_scene = 2
 utc = "2026-01-18T06:00:00Z"
 [place]
 name = "Flagstaff"

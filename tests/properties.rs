@@ -9,8 +9,10 @@ use nocturne::air::refraction::Refraction;
 use nocturne::air::standard::standard_pressure_mbar;
 use nocturne::camera::{Camera, LARGEST_EDGE_PX, NARROWEST_FIELD_DEG, Projection};
 use nocturne::catalog::{HapkeCell, MoonHapke, MoonMap, MoonMaps, MoonRelief, Star};
+use nocturne::display::Display;
 use nocturne::ephemeris::{Body, Ephemeris};
 use nocturne::eye::Eye;
+use nocturne::eye::glare::Glare;
 use nocturne::frame::{Apparent, Dir, Horizon, Local, View};
 use nocturne::image::Image;
 use nocturne::light::moon::Reflectance;
@@ -437,16 +439,13 @@ proptest! {
 /// The ranges of a scene file.
 fn eyes() -> impl Strategy<Value = Eye> {
     let adaptation = proptest::option::of((-7.0..=10.0).prop_map(|log: f64| 10f64.powf(log)));
-    (1.0..=10_000.0, -40.0..=40.0, adaptation, any::<bool>()).prop_map(
-        |(display_peak_cd_m2, exposure_stops, adaptation_cd_m2, rods)| Eye {
-            display_peak_cd_m2,
-            exposure_stops,
-            adaptation_cd_m2,
-            rods,
-            // Glare spreads the light of one pixel over its neighbours, which then are what is seen.
-            glare: false,
-        },
-    )
+    (-40.0..=40.0, adaptation).prop_map(|(exposure_stops, adaptation_cd_m2)| Eye {
+        exposure_stops,
+        adaptation_cd_m2,
+        // Glare spreads the light of one pixel over its neighbours, which then are what is seen.
+        glare: Glare::None,
+        ..Eye::default()
+    })
 }
 
 /// No light, or between a starless sky and the Sun, cd/m2.
@@ -460,14 +459,18 @@ proptest! {
     #[test]
     fn eyes_see_order_in_whatever_is_shown(
         eye in eyes(),
+        peak_cd_m2 in 1.0..=10_000.0,
         greys in proptest::collection::vec(luminances(), 1..60),
         scotopic_ratio in 0.5..3.0f32,
     ) {
         let pixels = greys.iter().map(|y| [0.9505 * y, *y, 1.089 * y, scotopic_ratio * y]).collect();
         let frame = Image::from_pixels(greys.len() as u32, 1, pixels).unwrap();
-        let seen = eye.see(&frame, Angle::from_arcmin(3.0));
-        prop_assert!(seen.adaptation_cd_m2.is_finite() && seen.adaptation_cd_m2 > 0.0);
-        let mut shown: Vec<_> = greys.iter().copied().zip(seen.picture.pixels()).collect();
+        let display = Display { peak_cd_m2, ..Display::default() };
+        let seen = eye.see(&frame, Angle::from_arcmin(3.0), &display);
+        let adapted_to = seen.seeing.adaptation_cd_m2;
+        prop_assert!(adapted_to.is_finite() && adapted_to > 0.0);
+        let codes = seen.codes(&display);
+        let mut shown: Vec<_> = greys.iter().copied().zip(codes.pixels()).collect();
         shown.sort_by(|a, b| a.0.total_cmp(&b.0));
         // What is no number is shown as black. Green is most of the luminance: blue may fade as the
         // cones take over. Dithering moves a step up or down.
@@ -482,7 +485,11 @@ proptest! {
         pixels in proptest::collection::vec([luminances(), luminances(), luminances(), luminances()], 1..40),
     ) {
         let frame = Image::from_pixels(pixels.len() as u32, 1, pixels).unwrap();
-        let seen = eye.see(&frame, Angle::from_arcmin(3.0));
-        prop_assert!(seen.adaptation_cd_m2.is_finite() && seen.adaptation_cd_m2 > 0.0, "{seen:?}");
+        let seen = eye.see(&frame, Angle::from_arcmin(3.0), &Display::default());
+        let adapted_to = seen.seeing.adaptation_cd_m2;
+        prop_assert!(adapted_to.is_finite() && adapted_to > 0.0, "{adapted_to}");
+        for rgb in seen.light.pixels() {
+            prop_assert!(rgb.iter().all(|share| (0.0..=1.0).contains(share)), "{rgb:?}");
+        }
     }
 }

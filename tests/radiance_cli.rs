@@ -212,7 +212,7 @@ fn an_atmosphere_stands_for_every_case_and_files_are_written_whole() {
 }
 
 /// An afternoon on the equator at an equinox, and directions in its sky.
-const SCENE: &str = "nocturne_scene = 1\nutc = \"2026-03-20T16:00:00Z\"\n\
+const SCENE: &str = "nocturne_scene = 2\nutc = \"2026-03-20T16:00:00Z\"\n\
     [place]\nlatitude_deg = 0.0\nlongitude_deg = 0.0\n\
     [camera]\nazimuth_deg = 0.0\naltitude_deg = 40.0\nfield_of_view_deg = 60.0\n\
     projection = \"stereographic\"\nwidth_px = 64\nheight_px = 48\n\

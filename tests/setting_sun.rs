@@ -18,7 +18,7 @@ use nocturne::units::{Angle, Xyzv};
 
 /// An equinox on the equator: the Sun sets upright in the west, a quarter of a degree a minute.
 const SUNSET: &str = r#"
-nocturne_scene = 1
+nocturne_scene = 2
 utc = "2026-03-20T18:09:00Z"
 [place]
 latitude_deg = 0.0

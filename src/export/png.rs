@@ -125,10 +125,13 @@ mod tests {
 
     #[test]
     fn codes_profile_and_tags_come_back() {
-        let deep = Image::filled(3, 2, [0.25f32, 0.5, 1.0, 1.0]);
+        let deep = Image::filled(3, 2, [0.25f32, 0.5, 1.0]);
         let eight = Codes::Eight(Image::filled(3, 2, [7, 130, 255]));
         for space in [ColourSpace::Srgb, ColourSpace::DisplayP3, ColourSpace::Linear] {
-            for codes in [Codes::sixteen(&deep), eight.clone()] {
+            for codes in [
+                Codes::Sixteen(Display { space, ..Display::default() }.sixteen_bits(&deep)),
+                eight.clone(),
+            ] {
                 let bytes = written(&codes, space);
                 assert_eq!(bytes, written(&codes, space));
                 let mut decoder = PngDecoder::new(io::Cursor::new(&bytes)).unwrap();

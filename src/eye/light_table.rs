@@ -40,3 +40,23 @@ pub fn table<T>(of: impl Fn(f64, f64) -> T) -> Vec<T> {
         })
         .collect()
 }
+
+/// What a table holds for a light of photopic and scotopic luminances in cd/m2, straight between nodes.
+pub fn at(table: &[[f32; 4]], photopic_cd_m2: f64, scotopic_cd_m2: f64) -> [f64; 4] {
+    const DARKEST: f64 = 1e-10;
+    let photopic = photopic_cd_m2.max(DARKEST);
+    let ratio = scotopic_cd_m2.max(DARKEST) / photopic;
+    let place = |value: f64, lowest: f64, per_octave: f64, nodes: usize| {
+        let place = ((value.log2() - lowest) * per_octave).clamp(0.0, (nodes - 1) as f64);
+        let node = (place as usize).min(nodes - 2);
+        (node, place - node as f64)
+    };
+    let (column, along) = place(photopic, LOWEST_LOG2, COLUMNS_PER_OCTAVE, COLUMNS);
+    let (row, up) = place(ratio, LOWEST_RATIO_LOG2, ROWS_PER_OCTAVE, ROWS);
+    let node = |row: usize, column: usize| table[row * COLUMNS + column].map(f64::from);
+    let [low, high] = [row, row + 1].map(|row| {
+        let [near, far] = [node(row, column), node(row, column + 1)];
+        [0, 1, 2, 3].map(|part: usize| near[part] + along * (far[part] - near[part]))
+    });
+    [0, 1, 2, 3].map(|part: usize| low[part] + up * (high[part] - low[part]))
+}

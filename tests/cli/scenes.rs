@@ -8,7 +8,7 @@ use super::harness::{DARK, IMPOSSIBLE, NONSENSE, nocturne, trial, words};
 
 /// Key, what is written instead of its value, and what the sentence must say.
 const VALUES: [(&str, &str, &[&str]); 22] = [
-    ("nocturne_scene", "7", &["nocturne_scene is 7", "version 1"]),
+    ("nocturne_scene", "7", &["nocturne_scene is 7", "version 2"]),
     ("nocturne_scene", "-1", &["line ", "-1"]),
     ("utc", "\"garbage\"", &["'garbage'", "2026-08-12"]),
     ("utc", "\"5000-01-01T00:00Z\"", &["year 5000", "-4000 to 4000"]),

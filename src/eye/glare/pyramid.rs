@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 
 use rayon::prelude::*;
 
-use crate::image::HdrFrame;
+use crate::image::{HdrFrame, Image};
 use crate::units::Angle;
 
 use super::spread::Spread;
@@ -316,6 +316,18 @@ pub struct Point {
     pub light: [f64; 4],
 }
 
+/// The light of a level, from 1, as the steps down leave it: what lies in the place of each texel.
+pub fn gathered(frame: &HdrFrame, level: usize) -> HdrFrame {
+    let pixels = frame.pixels().iter().map(|pixel| pixel.map(f64::from)).collect();
+    let mut light = Level { width: frame.width_px() as usize, pixels };
+    for level in 1..=level {
+        light = light.gathered(level);
+    }
+    let (width, height) = (light.width as u32, light.height() as u32);
+    let pixels = light.pixels.iter().map(|pixel| pixel.map(|light| light as f32)).collect();
+    Image::from_pixels(width, height, pixels).expect("as many pixels")
+}
+
 /// A frame as it reaches the retina when level 1, 2, ... get these shares: the slow twin, in f64,
 /// of what the renderer does.
 pub fn scattered_by(frame: &HdrFrame, shares: &[f64]) -> HdrFrame {
@@ -366,7 +378,6 @@ pub fn scattered_with(
 mod tests {
     use super::*;
     use crate::eye::glare::{Glare, Optics};
-    use crate::image::Image;
 
     fn day_shares(pixel_deg: f64, width_px: u32, height_px: u32) -> Vec<f64> {
         let spread = Glare::Cie.spread(&Optics::default(), 3.0).unwrap();
