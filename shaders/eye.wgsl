@@ -21,15 +21,12 @@ struct Grain {
 @group(0) @binding(3) var shown: texture_2d<f32>;
 @group(0) @binding(4) var frame: texture_2d<f32>;
 @group(0) @binding(5) var spread: texture_2d<f32>;
-// The frame where the eye does not resolve all that it holds.
-@group(0) @binding(6) var blurred: texture_2d<f32>;
-@group(0) @binding(7) var levels_resolved: texture_2d<f32>;
 // What is shown, finished at a coarser level.
-@group(0) @binding(8) var coarse: texture_2d<f32>;
-@group(0) @binding(9) var<uniform> grain: Grain;
-@group(0) @binding(10) var noise: texture_2d<f32>;
-@group(0) @binding(11) var repeated: sampler;
-@group(0) @binding(12) var nearest: sampler;
+@group(0) @binding(6) var coarse: texture_2d<f32>;
+@group(0) @binding(7) var nearest: sampler;
+@group(0) @binding(8) var<uniform> grain: Grain;
+@group(0) @binding(9) var noise: texture_2d<f32>;
+@group(0) @binding(10) var repeated: sampler;
 
 override HAS_GRAIN: bool = false;
 // Whether all is shown in red.
@@ -43,7 +40,7 @@ struct Corner {
     @location(0) @interpolate(flat) red: vec4f,
     @location(1) @interpolate(flat) green: vec4f,
     @location(2) @interpolate(flat) blue: vec4f,
-    // Shares of the light that are in place and spread; pixels of the frame on the picture of half its size.
+    // Shares of the light that are in place and spread; a pixel on the level that spreads.
     @location(3) @interpolate(flat) retina: vec4f,
     // The same on the coarse picture, and the place in the noise.
     @location(4) @interpolate(flat) coarse: vec4f,
@@ -61,7 +58,7 @@ fn vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> Corner
         display.red,
         display.green,
         display.blue,
-        vec4f(retina.in_place, retina.spread, retina.half_scale),
+        vec4f(retina.in_place, retina.spread, retina.around_scale),
         vec4f(retina.soft_scale, grain.place / 256.0),
         vec2f(1.0 / (256.0 * grain.size_px), grain.strength),
         1.0 / retina.size_px,
@@ -74,20 +71,11 @@ fn plain(corner: Corner) -> @location(0) vec4f {
     return codes(corner, seen_of(shown, between, at_pixel(corner)));
 }
 
-// Where it resolves all.
+// Where glare matters.
 @fragment
 fn sharp(corner: Corner) -> @location(0) vec4f {
     let light = at_pixel(corner);
     return codes(corner, seen_with_glare(corner, light));
-}
-
-// Where it resolves some.
-@fragment
-fn mixed(corner: Corner) -> @location(0) vec4f {
-    let fine = at_pixel(corner);
-    let soft = textureSampleLevel(blurred, between, corner.position.xy * corner.retina.zw, 0.0);
-    let lost = clamp(level_resolved(levels_resolved, between, soft), 0.0, 1.0);
-    return codes(corner, seen_with_glare(corner, mix(fine, soft, lost)));
 }
 
 // Where it resolves no more than a coarser level holds.

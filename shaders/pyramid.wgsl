@@ -119,6 +119,13 @@ fn spread_and_blurred(corner: Corner) -> SpreadAndBlurred {
 // What is shown where the eye resolves no more than this level: linear X, Y and Z, and the light.
 @fragment
 fn seen(corner: Corner) -> @location(0) vec4f {
+    let wider = from_coarser(coarser, corner.position.xy);
+    return seen_of(shown, between, corner.shares.x * luminance(corner) + corner.shares.y * wider);
+}
+
+// The same where it resolves less in places.
+@fragment
+fn seen_blurred(corner: Corner) -> @location(0) vec4f {
     let up = stepped_up(corner);
     return seen_of(shown, between, corner.shares.w * up.blurred + up.spread);
 }

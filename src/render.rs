@@ -33,6 +33,7 @@ use crate::frame::{Apparent, Dir};
 use crate::image::HdrFrame;
 use crate::photo::Photo;
 use crate::photo::exposure::Exposure;
+use crate::photo::lens::Spike;
 use crate::plan::{FramePlan, SkyPlan, Splat};
 use crate::units::Xyzv;
 
@@ -65,7 +66,10 @@ pub struct Rendered {
 #[derive(Debug, Clone, Copy)]
 pub enum Viewer<'a> {
     Eye(&'a Eye),
+    /// A camera that meters for itself.
     Photo(&'a Photo),
+    /// A camera as it is set, without spikes.
+    Exposure(&'a Exposure),
 }
 
 /// How a picture is made of the frame.
@@ -126,6 +130,22 @@ impl Renderer {
         let mut frame = Target::new(&self.gpu, &plan.camera)?;
         self.extended(&mut frame, plan, detail);
         self.splats.draw(&mut frame, &plan.splats, &plan.camera);
+        let finished = frame.finish()?;
+        let frame = target::read_back(&self.gpu, &finished.frame)?;
+        Ok(Rendered { frame, times: finished.times })
+    }
+
+    /// The frame as it lies on the sensor of a camera, with spikes of its aperture.
+    pub fn frame_with_spikes(
+        &self,
+        plan: &FramePlan,
+        spikes: &[Spike],
+    ) -> Result<Rendered, GpuError> {
+        let mut frame = Target::new(&self.gpu, &plan.camera)?;
+        self.extended(&mut frame, plan, SkyDetail::Tiles);
+        self.splats.draw(&mut frame, &plan.splats, &plan.camera);
+        let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
+        pass.spikes(&mut frame, spikes);
         let finished = frame.finish()?;
         let frame = target::read_back(&self.gpu, &finished.frame)?;
         Ok(Rendered { frame, times: finished.times })
@@ -195,6 +215,12 @@ impl Renderer {
                 }
                 pass.picture(&mut frame, &exposure, look.display, &picture);
                 Made::Exposed(exposure)
+            }
+            Viewer::Exposure(exposure) => {
+                let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
+                splats(&mut frame);
+                pass.picture(&mut frame, exposure, look.display, &picture);
+                Made::Exposed(*exposure)
             }
         };
         let finished = frame.finish()?;

@@ -15,7 +15,8 @@ use nocturne::photo::sensor::SensorKind;
 use nocturne::photo::{Curve, Photo};
 use nocturne::plan::{FramePlan, SkyPlan, Splat};
 use nocturne::render::Renderer;
-use nocturne::render::photo::{coded, deep};
+use nocturne::render::picture::{Depth, Picture};
+use nocturne::render::{Look, Viewer};
 use nocturne::units::{Angle, Xyzv};
 use support::{GpuTest, check, illuminance};
 
@@ -26,6 +27,46 @@ fn main() {
         GpuTest::new("no_light_makes_a_picture_that_is_no_number", every_light_is_a_number),
         GpuTest::new("spikes_keep_the_light_of_their_star", spikes_keep_light),
     ])
+}
+
+fn looked(
+    renderer: &Renderer,
+    frame: &HdrFrame,
+    exposure: &Exposure,
+    display: &Display,
+    depth: Depth,
+) -> Result<Picture, Failed> {
+    let look = Look { viewer: Viewer::Exposure(exposure), display, depth };
+    let camera = camera(frame.width_px(), frame.height_px());
+    Ok(renderer.look_at(frame, &camera, &[], &look)?.picture)
+}
+
+/// The picture of a frame, 8 bits a channel.
+fn coded(
+    renderer: &Renderer,
+    frame: &HdrFrame,
+    exposure: &Exposure,
+    display: &Display,
+) -> Result<Image<[u8; 3]>, Failed> {
+    match looked(renderer, frame, exposure, display, Depth::Codes)? {
+        Picture::Codes(codes) => Ok(codes),
+        Picture::Linear(_) => Err("no codes".into()),
+    }
+}
+
+/// The same before it is rounded, 0 to 1.
+fn deep(
+    renderer: &Renderer,
+    frame: &HdrFrame,
+    exposure: &Exposure,
+    display: &Display,
+) -> Result<Image<[f32; 3]>, Failed> {
+    match looked(renderer, frame, exposure, display, Depth::Linear)? {
+        Picture::Linear(light) => {
+            Ok(light.map(|rgb| display.encoded(rgb.map(f64::from)).map(|code| code as f32)))
+        }
+        Picture::Codes(_) => Err("no light".into()),
+    }
 }
 
 fn camera(width_px: u32, height_px: u32) -> Camera {
@@ -71,8 +112,8 @@ fn the_screen_is_its_twin(renderer: &Renderer) -> Result<(), Failed> {
     for space in [ColourSpace::Srgb, ColourSpace::DisplayP3, ColourSpace::Linear] {
         for red in [false, true] {
             let display = Display { space, red, ..Display::default() };
-            let exact = deep(renderer.gpu(), &frame, &exposure, &display)?;
-            let rounded = coded(renderer.gpu(), &frame, &exposure, &display)?;
+            let exact = deep(renderer, &frame, &exposure, &display)?;
+            let rounded = coded(renderer, &frame, &exposure, &display)?;
             let (mut worst, mut differ) = (0.0f64, 0);
             for (y, x) in (0..128).flat_map(|y| (0..128).map(move |x| (y, x))) {
                 let light = frame.xyzv(x, y);
@@ -108,7 +149,7 @@ fn the_camera_is_its_twin(renderer: &Renderer) -> Result<(), Failed> {
         let exposure =
             photo.exposed(&metered(&[Xyzv::new(0.2, 0.2, 0.2, 0.4)]), &camera(size, size));
         let display = Display { dither: false, ..Display::default() };
-        let shown = deep(renderer.gpu(), &frame, &exposure, &display)?;
+        let shown = deep(renderer, &frame, &exposure, &display)?;
         for (y, x) in (0..size).flat_map(|y| (0..size).map(move |x| (y, x))) {
             let rgb = exposure.developed(exposure.raw(frame.xyzv(x, y), x, y), &display);
             let meant = display.encoded(rgb.clamp(DVec3::ZERO, DVec3::ONE).to_array());
@@ -117,8 +158,8 @@ fn the_camera_is_its_twin(renderer: &Renderer) -> Result<(), Failed> {
                 check(off < 5e-4, || format!("{noise} {curve:?} {x} {y}: {shown}, not {meant}"))?;
             }
         }
-        let codes = coded(renderer.gpu(), &frame, &exposure, &display)?;
-        check(codes == coded(renderer.gpu(), &frame, &exposure, &display)?, || {
+        let codes = coded(renderer, &frame, &exposure, &display)?;
+        check(codes == coded(renderer, &frame, &exposure, &display)?, || {
             "the same settings made another picture".to_owned()
         })?;
     }
@@ -139,7 +180,7 @@ fn every_light_is_a_number(renderer: &Renderer) -> Result<(), Failed> {
     for metered_at in [0.0, 1e-7, 1.0, 1e9] {
         let reading = metered(&[Xyzv::new(metered_at, metered_at, metered_at, metered_at)]);
         let exposure = Photo::default().exposed(&reading, &camera(64, 16));
-        let shown = deep(renderer.gpu(), &frame, &exposure, &Display::default())?;
+        let shown = deep(renderer, &frame, &exposure, &Display::default())?;
         let fine = |v: &f32| (0.0..=1.0).contains(v);
         let bad = shown.pixels().iter().position(|pixel| !pixel.iter().all(fine));
         check(bad.is_none(), || format!("metered at {metered_at}: pixel {bad:?}"))?;

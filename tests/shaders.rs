@@ -63,7 +63,7 @@ fn uniforms_have_one_layout_on_both_sides() {
         [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
     );
     let library = parsed("library", &LIBRARY.join("\n"));
-    same_layout!(library, "Display", DisplayUniform, [rgb_from_xyz, shown_from_rgb]);
+
     let photo = parsed("photo", &assembled("photo"));
     let (members, size) = layout(&photo, "Setting");
     assert_eq!(size, size_of::<PhotoUniform>());

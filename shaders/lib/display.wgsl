@@ -29,11 +29,12 @@ fn gamut(rgb: vec3f, luminance: f32) -> vec3f {
     return select(positive, brought, high > 1.0);
 }
 
-// The transfer curve of sRGB, of linear shares from 0 to 1: a polynomial of least maximum in the fourth root,
-// off by at most 3.5e-5, and the straight piece.
+// The transfer curve of sRGB, of linear shares from 0 to 1: a polynomial of least maximum in the square root,
+// off by at most 1.5e-4, and the straight piece.
 fn encode(rgb: vec3f) -> vec3f {
-    let q = sqrt(sqrt(rgb));
-    let curve = -0.064611494 + q * (0.19613561 + q * (1.1226822 + q * (-0.335502 + q * 0.081330083)));
+    let q = sqrt(rgb);
+    let steep = -0.04223199 + q * (1.5752707 + q * (-1.89946906 + q * 3.8984006));
+    let curve = steep + (q * q) * (q * q) * (-5.00308021 + q * (3.41860335 - q * 0.94764237));
     return select(curve, 12.92 * rgb, rgb <= vec3f(0.0031308));
 }
 

@@ -30,7 +30,8 @@ fn level_resolved(levels: texture_2d<f32>, between: sampler, light: LuminanceXyz
 }
 
 // Given the light on the retina, what is shown of it: X, Y and Z in shares of the screen's peak.
+// The table has the share that cones give of the luminance, and the X, Y and Z that rods give.
 fn seen_of(shown: texture_2d<f32>, between: sampler, light: LuminanceXyzv) -> vec4f {
     let by = at_light(shown, between, light);
-    return vec4f(by.x * light.xyz + light.w * by.yzw, light.y);
+    return vec4f(by.x / max(light.y, DARKEST) * light.xyz + by.yzw, light.y);
 }

@@ -36,7 +36,8 @@ pub struct Seeing {
     /// Over the columns of [`light_table`]: the level of the pyramid that is as fine as the eye resolves;
     /// none where that does not matter.
     pub levels_resolved: Option<Vec<f32>>,
-    /// Over light: factors of X, Y and Z and, for each of them, of V, in shares of the screen's peak.
+    /// Over light, in shares of the screen's peak: the luminance that cones give, and the X, Y and Z that
+    /// rods give.
     pub shown: Vec<[f32; 4]>,
     /// Over the light around: what is shown of a point, in shares of the screen's white times square
     /// pixels for a lux; the faintest point that is seen, lux; the size of a code of the picture there.
@@ -137,8 +138,8 @@ impl Eye {
                 Model::Paper => (published_mix(photopic), photopic),
             };
             let gain = if seen > 0.0 { curve.shown(seen * brighter) / seen } else { 0.0 };
-            let [x, y, z] = mix.rods;
-            [mix.cones, x, y, z].map(|factor| (factor * gain) as f32)
+            let [x, y, z] = mix.rods.map(|rods| rods * scotopic);
+            [mix.cones * photopic, x, y, z].map(|part| (part * gain) as f32)
         })
     }
 

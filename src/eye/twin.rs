@@ -48,8 +48,8 @@ impl Eye {
         let shown = |light: &[f32; 4]| {
             let [x, y, z, v] = light.map(f64::from);
             let [cones, rods @ ..] = light_table::at(&seeing.shown, y, v);
-            let [x, y, z] = [x, y, z].map(|part| cones * part);
-            let xyz = glam::DVec3::new(x, y, z) + glam::DVec3::from_array(rods) * v;
+            let gain = cones / y.max(1e-10);
+            let xyz = glam::DVec3::new(x, y, z) * gain + glam::DVec3::from_array(rods);
             within_gamut(rgb_from_xyz * xyz, xyz.y).to_array()
         };
         let pixels = retina.pixels().par_iter().map(shown).collect();

@@ -3,6 +3,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use half::f16;
+
 use crate::camera::Camera;
 use crate::display::Display;
 use crate::eye::Eye;
@@ -53,7 +55,6 @@ struct Kind {
 struct Pipelines {
     plain: wgpu::RenderPipeline,
     sharp: wgpu::RenderPipeline,
-    mixed: wgpu::RenderPipeline,
     soft: wgpu::RenderPipeline,
     points: wgpu::RenderPipeline,
 }
@@ -152,6 +153,10 @@ impl EyePass {
         let across = |level: usize| {
             pyramid.level_px(level).map(|texels| 0.5f32.powi(level as i32) / texels as f32)
         };
+        let spread_from = |level: usize| match tiles.scatters {
+            true => seeing.glare_shares.iter().skip(level - 1).sum::<f64>(),
+            false => 0.0,
+        };
         let work = Work {
             scene,
             seeing: &seeing,
@@ -159,10 +164,10 @@ impl EyePass {
             pipelines: self.pipelines(gpu, kind),
             picture,
             retina: RetinaUniform {
-                in_place: (1.0 - seeing.glare_shares.iter().sum::<f64>()) as f32,
-                spread: 1.0,
+                // What level 1 would spread is not worth a pass over half the picture.
+                in_place: (1.0 - spread_from(around)) as f32,
+                spread: if tiles.scatters { 1.0 } else { 0.0 },
                 size_px: size_px.map(|edge| edge as f32),
-                half_scale: across(1),
                 soft_scale: across(tiles.soft_level),
                 around_scale: across(around),
             },
@@ -215,17 +220,14 @@ impl EyePass {
         let gpu = frame.gpu;
         let view = wgpu::BindingResource::TextureView;
         let pyramid = work.pyramid;
-        let scatters = !work.seeing.glare_shares.is_empty();
+        let no_glare: &[f64] = &[];
         let up = Up {
-            shares: &work.seeing.glare_shares,
+            shares: if tiles.scatters { &work.seeing.glare_shares } else { no_glare },
             levels_resolved: &work.levels_resolved,
-            blurs: !(tiles.soft.is_empty() && tiles.mixed.is_empty()),
+            blurs: tiles.blurs,
         };
-        let is_whole = tiles.sharp.is_empty() && tiles.mixed.is_empty();
-        // Points look at what is around them, whatever is spread of it.
-        let finest = if is_whole { around } else { 1 };
-        if scatters || up.blurs || !work.scene.points.is_empty() {
-            self.pyramid.up(frame, pyramid, &up, (finest..=pyramid.len()).rev());
+        if tiles.scatters || tiles.blurs {
+            self.pyramid.up(frame, pyramid, &up, (around..=pyramid.len()).rev());
         }
         let coarse = match tiles.soft.is_empty() {
             true => None,
@@ -244,21 +246,18 @@ impl EyePass {
             (2, display.as_entire_binding()),
             (3, view(&work.shown)),
             (4, view(&frame_view)),
-            (5, view(pyramid.spread(1))),
-            (6, view(pyramid.blurred(1))),
-            (7, view(&work.levels_resolved)),
-            (8, view(coarse.unwrap_or(&work.shown))),
-            (9, grain.as_entire_binding()),
-            (10, view(&noise)),
-            (11, wgpu::BindingResource::Sampler(&self.repeated)),
-            (12, wgpu::BindingResource::Sampler(&self.pyramid.nearest)),
+            (5, view(pyramid.spread(around))),
+            (6, view(coarse.unwrap_or(&work.shown))),
+            (7, wgpu::BindingResource::Sampler(&self.pyramid.nearest)),
+            (8, grain.as_entire_binding()),
+            (9, view(&noise)),
+            (10, wgpu::BindingResource::Sampler(&self.repeated)),
         ];
         let pipelines = &work.pipelines;
-        let kinds: [(&wgpu::RenderPipeline, &[Tile], &[u32]); 4] = [
-            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4, 9, 10, 11, 12]),
-            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5, 9, 10, 11, 12]),
-            (&pipelines.mixed, &tiles.mixed, &[0, 1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12]),
-            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 8, 9, 10, 11]),
+        let kinds: [(&wgpu::RenderPipeline, &[Tile], &[u32]); 3] = [
+            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4, 7, 8, 9, 10]),
+            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5, 7, 8, 9, 10]),
+            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 6, 8, 9, 10]),
         ];
         let draws: Vec<_> = kinds
             .into_iter()
@@ -304,7 +303,7 @@ impl EyePass {
         let instances: Vec<PointInstance> = scene.points.iter().map(instance).collect();
         let bytes = bytemuck::cast_slice(&instances);
         let instances = gpu.buffer("points", bytes, wgpu::BufferUsages::VERTEX);
-        let visible = table_texture(gpu, "visible", &seeing.visible);
+        let visible = exact_table_texture(gpu, "visible", &seeing.visible);
         let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
         let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
         let rows = halo_rows(seeing.halo.as_ref());
@@ -380,7 +379,6 @@ impl EyePass {
         let pipelines = Pipelines {
             plain: pixels("plain"),
             sharp: pixels("sharp"),
-            mixed: pixels("mixed"),
             soft: pixels("soft"),
             points,
         };
@@ -433,14 +431,25 @@ fn normal(seed: u64, number: u64) -> f64 {
     sum - 6.0
 }
 
-/// A table over light.
+/// The size of tables over light.
+const TABLE_SIZE: wgpu::Extent3d = wgpu::Extent3d {
+    width: light_table::COLUMNS as u32,
+    height: light_table::ROWS as u32,
+    depth_or_array_layers: 1,
+};
+
+/// A table over light, in halves: smaller, and sooner read.
 fn table_texture(gpu: &Gpu, label: &str, table: &[[f32; 4]]) -> wgpu::TextureView {
-    let size = wgpu::Extent3d {
-        width: light_table::COLUMNS as u32,
-        height: light_table::ROWS as u32,
-        depth_or_array_layers: 1,
-    };
-    let texture = gpu.texture_of(label, size, FRAME_FORMAT, bytemuck::cast_slice(table));
+    let halves: Vec<u16> =
+        table.as_flattened().iter().map(|&value| f16::from_f32(value).to_bits()).collect();
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let texture = gpu.texture_of(label, TABLE_SIZE, format, bytemuck::cast_slice(&halves));
+    texture.create_view(&Default::default())
+}
+
+/// The same in 32 bits, for values beyond the range of halves.
+fn exact_table_texture(gpu: &Gpu, label: &str, table: &[[f32; 4]]) -> wgpu::TextureView {
+    let texture = gpu.texture_of(label, TABLE_SIZE, FRAME_FORMAT, bytemuck::cast_slice(table));
     texture.create_view(&Default::default())
 }
 

@@ -1,16 +1,18 @@
 //! What each part of a picture needs of the eye: not every pixel is worth all of it.
 //!
 //! Where it is so dark that the eye resolves no more than every second or fourth pixel, the picture is
-//! made at that resolution; where it resolves all and nothing bright is near, the frame is shown as it is.
-//! Only what remains goes the whole way.
+//! made at that resolution; where glare adds nothing, the frame is shown as it is. Only what remains
+//! goes the whole way.
 
 use crate::eye::foveal::Foveal;
 use crate::eye::light_table;
 
 /// Edge of a tile, pixels.
 const TILE_PX: u32 = 64;
-/// Glare that changes the light by less than this is left out.
-const UNSEEN_GLARE: f64 = 0.004;
+/// Glare that changes no light of the picture by more than this is left out.
+const UNSEEN_GLARE: f64 = 0.01;
+/// Glare that changes the light of a tile by less than this is left out there.
+const UNSEEN_IN_TILE: f64 = 0.004;
 /// The coarsest level that a dark picture is made at.
 const SOFTEST: usize = 2;
 
@@ -20,15 +22,18 @@ pub type Tile = [u32; 4];
 /// The tiles of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EyeTiles {
-    /// Resolved no finer than the picture at `soft_level`, 1 or 2.
+    /// Resolved no finer than the picture at `soft_level`, to half a level.
     pub soft: Vec<Tile>,
+    /// 1 or 2.
     pub soft_level: usize,
-    /// All that the frame holds is resolved, and glare adds nothing.
+    /// Whether less than that level is resolved somewhere in them.
+    pub blurs: bool,
+    /// Resolved, and glare adds nothing.
     pub plain: Vec<Tile>,
-    /// All is resolved.
+    /// Resolved.
     pub sharp: Vec<Tile>,
-    /// Some is.
-    pub mixed: Vec<Tile>,
+    /// Whether there is any glare that is seen.
+    pub scatters: bool,
 }
 
 impl EyeTiles {
@@ -43,8 +48,10 @@ impl EyeTiles {
             let column = light_table::column(photopic_cd_m2);
             levels_resolved.map_or(0.0, |levels| f64::from(levels[column]))
         };
-        let mut tiles = EyeTiles { soft_level: SOFTEST.min(foveal.level), ..EyeTiles::default() };
-        let mut finest_of_soft = f64::INFINITY;
+        let strongest = foveal.cells.iter().map(|cell| cell.glare).fold(0.0, f64::max);
+        let scatters = scatters && strongest >= UNSEEN_GLARE;
+        let mut tiles = EyeTiles { scatters, ..EyeTiles::default() };
+        let (mut finest_of_soft, mut coarsest_of_soft) = (f64::INFINITY, 0.0f64);
         for y in (0..size_px[1]).step_by(TILE_PX as usize) {
             for x in (0..size_px[0]).step_by(TILE_PX as usize) {
                 let tile = [x, y, (x + TILE_PX).min(size_px[0]), (y + TILE_PX).min(size_px[1])];
@@ -55,21 +62,20 @@ impl EyeTiles {
                     glare = glare.max(cell.glare);
                 }
                 let finest = resolved(brightest);
-                if finest >= 1.0 {
+                if finest >= 0.5 {
                     finest_of_soft = finest_of_soft.min(finest);
+                    coarsest_of_soft = coarsest_of_soft.max(resolved(darkest));
                     tiles.soft.push(tile);
-                } else if resolved(darkest) > 0.0 {
-                    tiles.mixed.push(tile);
-                } else if scatters && glare >= UNSEEN_GLARE {
+                } else if scatters && glare >= UNSEEN_IN_TILE {
                     tiles.sharp.push(tile);
                 } else {
                     tiles.plain.push(tile);
                 }
             }
         }
-        if finest_of_soft < tiles.soft_level as f64 {
-            tiles.soft_level = 1;
-        }
+        let level = if finest_of_soft < 1.5 { 1 } else { SOFTEST };
+        tiles.soft_level = level.min(foveal.level);
+        tiles.blurs = coarsest_of_soft >= tiles.soft_level as f64 + 0.5;
         tiles
     }
 }

@@ -22,6 +22,7 @@ pub struct PyramidPass {
     spread: wgpu::RenderPipeline,
     spread_and_blurred: wgpu::RenderPipeline,
     seen: wgpu::RenderPipeline,
+    seen_blurred: wgpu::RenderPipeline,
     pub between: wgpu::Sampler,
     pub nearest: wgpu::Sampler,
 }
@@ -102,11 +103,6 @@ impl Pyramid {
         &self.levels[level - 1].spread
     }
 
-    /// The light of a level as far as it is resolved, once it went up.
-    pub fn blurred(&self, level: usize) -> &wgpu::TextureView {
-        &self.levels[level - 1].blurred
-    }
-
     /// Size of a level, texels.
     pub fn level_px(&self, level: usize) -> [u32; 2] {
         let texture = &self.levels[level - 1].texture;
@@ -149,6 +145,7 @@ impl PyramidPass {
             spread: pipeline("upward", "spread", &[FRAME_FORMAT]),
             spread_and_blurred: pipeline("upward", "spread_and_blurred", &[FRAME_FORMAT; 2]),
             seen: pipeline("upward", "seen", &[FRAME_FORMAT]),
+            seen_blurred: pipeline("upward", "seen_blurred", &[FRAME_FORMAT]),
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
             nearest: gpu.nearest_sampler(),
         }
@@ -186,11 +183,10 @@ impl PyramidPass {
         for number in levels {
             let level = &pyramid.levels[number - 1];
             let pipeline = if up.blurs { &self.spread_and_blurred } else { &self.spread };
-            let label = if number == 1 { "retina" } else { "glare" };
             let group = self.step_up(frame, pyramid, up, number, pipeline, None);
             let pictures = [&level.spread, &level.blurred];
             let pictures = if up.blurs { &pictures[..] } else { &pictures[..1] };
-            frame.picture_pass(label, pictures, |pass| fill(pass, pipeline, &group));
+            frame.picture_pass("glare", pictures, |pass| fill(pass, pipeline, &group));
         }
     }
 
@@ -203,7 +199,7 @@ impl PyramidPass {
         level: usize,
         shown: &wgpu::TextureView,
     ) -> Option<&'p wgpu::TextureView> {
-        let pipeline = &self.seen;
+        let pipeline = if up.blurs { &self.seen_blurred } else { &self.seen };
         let picture = pyramid.levels[level - 1].seen.as_ref()?;
         let group = self.step_up(frame, pyramid, up, level, pipeline, Some(shown));
         frame.picture_pass("seen", &[picture], |pass| fill(pass, pipeline, &group));
@@ -221,12 +217,16 @@ impl PyramidPass {
     ) -> wgpu::BindGroup {
         let level = &pyramid.levels[number - 1];
         let coarser = pyramid.levels.get(number);
+        let in_place = 1.0 - up.shares.iter().sum::<f64>();
+        let share = up.shares.get(number - 1).copied().unwrap_or(0.0);
+        // What is shown without a blur has all that is not spread on the level itself.
+        let share = if shown.is_some() && !up.blurs { in_place + share } else { share };
         let step = PyramidStepUniform {
-            share: up.shares.get(number - 1).copied().unwrap_or(0.0) as f32,
+            share: share as f32,
             // Nothing is coarser than the coarsest; its blurred light is its light.
             coarser: if coarser.is_some() { 1.0 } else { 0.0 },
             level: number as f32,
-            in_place: (1.0 - up.shares.iter().sum::<f64>()) as f32,
+            in_place: in_place as f32,
             within: level.within,
         };
         let step = frame.gpu.buffer("step", bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM);
@@ -242,7 +242,7 @@ impl PyramidPass {
             (3, step.as_entire_binding()),
             (7, wgpu::BindingResource::Sampler(&self.nearest)),
         ];
-        if up.blurs || shown.is_some() {
+        if up.blurs {
             bound.extend([(4, view(blurred)), (5, view(up.levels_resolved))]);
         }
         bound.extend(shown.map(|shown| (6, view(shown))));

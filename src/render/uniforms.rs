@@ -185,7 +185,6 @@ pub struct RetinaUniform {
     pub in_place: f32,
     pub spread: f32,
     pub size_px: [f32; 2],
-    pub half_scale: [f32; 2],
     pub soft_scale: [f32; 2],
     pub around_scale: [f32; 2],
 }
