@@ -38,8 +38,8 @@ struct Halo {
 // Light of the halo per square pixel, by the logarithm of the distance.
 @group(0) @binding(6) var halo_rows: texture_2d<f32>;
 
-// A point begins to show at this share of the threshold.
-const GLIMPSED: f32 = 0.7;
+// A point begins to show at this share of the threshold, a tenth of a magnitude below.
+const GLIMPSED: f32 = 0.91;
 // A halo ends where it is less than this share of a code.
 const LEAST_CODE: f32 = 0.2;
 // The code of a deep picture, that has none, is taken to be this.

@@ -88,6 +88,9 @@ pub struct Display {
     /// The angle that a pixel of the screen spans for its viewer, minutes of arc: 1.3 for 24 inches,
     /// 1920 pixels across, seen from 70 cm.
     pub pixel_arcmin: f64,
+    /// Luminance around the screen, to which its viewer is adapted, cd/m2: in the reference conditions of
+    /// IEC 61966-2-1 a room of 64 lux with walls that send a fifth back has 4.1.
+    pub surround_cd_m2: f64,
 }
 
 impl Default for Display {
@@ -98,6 +101,7 @@ impl Default for Display {
             red: false,
             dither: true,
             pixel_arcmin: 1.3,
+            surround_cd_m2: 4.1,
         }
     }
 }
@@ -115,6 +119,7 @@ impl Display {
         let checks = [
             ("peak_cd_m2", self.peak_cd_m2, 1.0, 10_000.0),
             ("pixel_arcmin", self.pixel_arcmin, 0.01, 120.0),
+            ("surround_cd_m2", self.surround_cd_m2, 0.0, 10_000.0),
         ];
         for (what, value, low, high) in checks {
             if !(low..=high).contains(&value) {

@@ -4,7 +4,7 @@
 //! needs for every pixel ([`Seeing`]): how much of the light it scatters and how far
 //! ([`glare`]), what it resolves ([`acuity`]), what rods and cones make of a light together
 //! ([`receptors`]), how bright that is shown ([`tone_curve`]), and which points of light are seen against
-//! what ([`limiting_magnitude`]). All of it is reckoned in f64 into small tables over light
+//! what ([`limiting_magnitude`]), and what it takes for white ([`white`]). All of it is reckoned in f64 into small tables over light
 //! ([`light_table`]); the passes look them up.
 //!
 //! What is shown follows visibility matching (Ward Larson, Rushmeier & Piatko 1997, *IEEE TVCG* 3, 291):
@@ -14,8 +14,7 @@
 //! are matched by Crumey's thresholds, so that a star is as far above the threshold of who looks at the
 //! screen as it was above that of who looks at the sky, and one below it is not drawn.
 //!
-//! *Left out.* Adaptation is of the whole picture, but for the veil of glare; the eye does not move. Colours are
-//! not adapted to: a low Moon is as orange as a sheet of paper in her light would be by day.
+//! *Left out.* Adaptation is of the whole picture, but for the veil of glare; the eye does not move.
 
 pub mod acuity;
 pub mod adaptation;
@@ -35,6 +34,7 @@ pub mod seeing;
 pub mod threshold;
 pub mod tone_curve;
 pub mod twin;
+pub mod white;
 
 use serde::{Deserialize, Serialize};
 
@@ -73,6 +73,8 @@ pub struct Eye {
     pub glare: Glare,
     /// Whether detail is lost that the eye does not resolve.
     pub acuity: bool,
+    /// Whether it takes yellow light of the scene for white, in part.
+    pub chromatic_adaptation: bool,
     /// Crumey's field factor: 1.4 for the keenest eyes, 2 for typical ones.
     pub field_factor: f64,
     /// Seed of the grain that few quanta of light make of the night; none when left out.
@@ -93,6 +95,7 @@ impl Default for Eye {
             night_colour: NightColour::default(),
             glare: Glare::default(),
             acuity: true,
+            chromatic_adaptation: true,
             field_factor: limiting_magnitude::TYPICAL_FIELD_FACTOR,
             grain: None,
             optics: Optics::default(),

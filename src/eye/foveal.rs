@@ -43,8 +43,8 @@ impl View {
 /// A texel of the foveal picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Photopic and scotopic luminance on the retina, cd/m2.
-    pub light: [f64; 2],
+    /// X, Y, Z and V on the retina, cd/m2.
+    pub light: [f64; 4],
     /// By how much glare has changed it, as a share of it.
     pub glare: f64,
 }
@@ -77,9 +77,9 @@ impl Foveal {
             false => light.clone(),
         };
         let cell = |(before, after): (&[f32; 4], &[f32; 4])| {
-            let [y, v] = [1, 3].map(|channel: usize| f64::from(after[channel]).max(0.0));
+            let light = after.map(|channel| f64::from(channel).max(0.0));
             let before = f64::from(before[1]).max(f64::MIN_POSITIVE);
-            Cell { light: [y, v], glare: (y / before - 1.0).abs() }
+            Cell { light, glare: (light[1] / before - 1.0).abs() }
         };
         let cells = light.pixels().iter().zip(retina.pixels()).map(cell).collect();
         Foveal { level, width, cells }

@@ -1,6 +1,6 @@
 //! What an eye makes of a picture, as numbers and tables for the passes that draw it.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::display::{Display, srgb_slope, within_gamut};
 use crate::image::HdrFrame;
@@ -12,6 +12,7 @@ use super::glare::{Glare, Halo, shares};
 use super::limiting_magnitude::{luminance_for_rods, threshold_lx};
 use super::receptors::{Mix, mix, seen_luminance_cd_m2};
 use super::tone_curve::{Screen, ToneCurve};
+use super::white::adapted_from_seen;
 use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
 
 /// Solid angle over which the eye sees the colour of a point: some three minutes of arc across, what
@@ -42,6 +43,8 @@ pub struct Seeing {
     /// Over the light around: what is shown of a point, in shares of the screen's white times square
     /// pixels for a lux; the faintest point that is seen, lux; the size of a code of the picture there.
     pub visible: Vec<[f32; 4]>,
+    /// Linear RGB of the screen of X, Y and Z as they are seen, the white of the scene for white.
+    pub rgb_from_seen: DMat3,
     /// Whether points of light are seen as points, or as part of the frame like everything else.
     pub sees_points: bool,
     magnification: f64,
@@ -66,7 +69,7 @@ impl Eye {
     /// What it makes of a picture, given the light of its foveal level as the steps down leave it.
     pub fn seeing(&self, gathered: &HdrFrame, view: &View, display: &Display) -> Seeing {
         let level = view.foveal_level();
-        let seen = |[photopic, scotopic]: [f64; 2]| match self.model {
+        let seen = |[_, photopic, _, scotopic]: [f64; 4]| match self.model {
             Model::Standard => seen_luminance_cd_m2(self.night_colour, photopic, scotopic),
             Model::Paper => photopic,
         };
@@ -99,7 +102,15 @@ impl Eye {
             Model::Standard => ToneCurve::of(&samples(&foveal), adaptation_cd_m2, screen),
             Model::Paper => paper::curve(&samples(&foveal), screen),
         };
+        let adapted_from_seen = match self.model {
+            Model::Standard if self.chromatic_adaptation => {
+                let light = foveal.cells.iter().map(|cell| cell.light);
+                adapted_from_seen(light.map(|[x, y, z, _]| [x, y, z]))
+            }
+            _ => DMat3::IDENTITY,
+        };
         Seeing {
+            rgb_from_seen: display.rgb_from_xyz() * adapted_from_seen,
             adaptation_cd_m2,
             pupil_mm,
             foveal,
@@ -155,7 +166,7 @@ impl Eye {
             let share = curve.shown(seen);
             let faintest_lx =
                 threshold_factor * threshold_lx(luminance_for_rods(photopic, scotopic));
-            let on_screen_lx = threshold_lx(share * display.peak_cd_m2);
+            let on_screen_lx = threshold_lx(share * display.peak_cd_m2 + display.surround_cd_m2);
             let shown = self.exposure_stops.exp2() * on_screen_lx
                 / (faintest_lx * screen_pixel_sr * display.peak_cd_m2);
             let code = match display.space.is_encoded() {
@@ -189,7 +200,7 @@ impl Seeing {
         let seen = DVec3::from_array(seen);
         let colour = match seen.y > 0.0 {
             // In the gamut however faint it is shown.
-            true => within_gamut(display.rgb_from_xyz() * (seen / seen.y * 1e-3), 1e-3) * 1e3,
+            true => within_gamut(self.rgb_from_seen * (seen / seen.y * 1e-3), 1e-3) * 1e3,
             false => DVec3::ZERO,
         };
         SeenPoint { colour: (display.shown_from_rgb() * colour).to_array(), illuminance_lx: lx.y }

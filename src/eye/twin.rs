@@ -44,13 +44,13 @@ impl Eye {
             true => frame.clone(),
             false => pyramid::scattered_by(frame, &seeing.glare_shares),
         };
-        let rgb_from_xyz = display.rgb_from_xyz();
+        let rgb_from_seen = seeing.rgb_from_seen;
         let shown = |light: &[f32; 4]| {
             let [x, y, z, v] = light.map(f64::from);
             let [cones, rods @ ..] = light_table::at(&seeing.shown, y, v);
             let gain = cones / y.max(1e-10);
             let xyz = glam::DVec3::new(x, y, z) * gain + glam::DVec3::from_array(rods);
-            within_gamut(rgb_from_xyz * xyz, xyz.y).to_array()
+            within_gamut(rgb_from_seen * xyz, xyz.y).to_array()
         };
         let pixels = retina.pixels().par_iter().map(shown).collect();
         let light = Image::from_pixels(frame.width_px(), frame.height_px(), pixels);

@@ -235,7 +235,7 @@ impl EyePass {
         };
         let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
         let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
-        let display = DisplayUniform::of(work.scene.display);
+        let display = DisplayUniform::of(work.scene.display, work.seeing.rgb_from_seen);
         let display = uniform("display", bytemuck::bytes_of(&display));
         let grain = uniform("grain", bytemuck::bytes_of(&grain(work.scene)));
         let noise = noise_texture(gpu, work.scene.eye.grain);

@@ -57,8 +57,8 @@ impl EyeTiles {
                 let tile = [x, y, (x + TILE_PX).min(size_px[0]), (y + TILE_PX).min(size_px[1])];
                 let [mut darkest, mut brightest, mut glare] = [f64::INFINITY, 0.0f64, 0.0f64];
                 for cell in foveal.around(tile) {
-                    darkest = darkest.min(cell.light[0]);
-                    brightest = brightest.max(cell.light[0]);
+                    darkest = darkest.min(cell.light[1]);
+                    brightest = brightest.max(cell.light[1]);
                     glare = glare.max(cell.glare);
                 }
                 let finest = resolved(brightest);

@@ -45,12 +45,12 @@ pub struct DisplayUniform {
 }
 
 impl DisplayUniform {
-    pub fn of(display: &Display) -> DisplayUniform {
-        let rgb_from_xyz = display.rgb_from_xyz();
-        let luminance = rgb_from_xyz.inverse().row(1);
+    /// With the matrix that takes X, Y and Z as they are seen to linear RGB.
+    pub fn of(display: &Display, rgb_from_seen: DMat3) -> DisplayUniform {
+        let luminance = display.rgb_from_xyz().inverse().row(1);
         DisplayUniform {
             rows: [0, 1, 2].map(|primary| {
-                let row = rgb_from_xyz.row(primary);
+                let row = rgb_from_seen.row(primary);
                 [row.x, row.y, row.z, luminance[primary]].map(|v| v as f32)
             }),
         }
