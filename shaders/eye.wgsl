@@ -1,12 +1,5 @@
 // What the eye makes of the light of each pixel, shown on the screen.
 
-// Linear RGB of X, Y and Z, and the luminance of each primary.
-struct DisplayRows {
-    red: vec4f,
-    green: vec4f,
-    blue: vec4f,
-}
-
 // Grain of the rods: its seed's place in the noise, its size in pixels, and its strength.
 struct Grain {
     place: vec2f,
@@ -29,8 +22,6 @@ struct Grain {
 @group(0) @binding(10) var repeated: sampler;
 
 override HAS_GRAIN: bool = false;
-// Whether all is shown in red.
-override IS_RED: bool = false;
 
 // What is the same for all pixels reaches them through the corners: the software driver reads a uniform anew
 // for each.
@@ -42,7 +33,7 @@ struct Corner {
     @location(2) @interpolate(flat) blue: vec4f,
     // Shares of the light that are in place and spread; a pixel on the level that spreads.
     @location(3) @interpolate(flat) retina: vec4f,
-    // The same on the coarse picture, and the place in the noise.
+    // A pixel on the coarse picture, and the place in the noise.
     @location(4) @interpolate(flat) coarse: vec4f,
     @location(5) @interpolate(flat) grain: vec2f,
     // A pixel on the frame, from 0 to 1 across it.
@@ -68,17 +59,18 @@ fn vertex(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> Corner
 // Where the eye resolves all that the frame holds, and nothing bright is near.
 @fragment
 fn plain(corner: Corner) -> @location(0) vec4f {
-    return codes(corner, seen_of(shown, between, at_pixel(corner)));
+    return codes(corner, sent(corner, at_pixel(corner)));
 }
 
 // Where glare matters.
 @fragment
 fn sharp(corner: Corner) -> @location(0) vec4f {
-    let light = at_pixel(corner);
-    return codes(corner, seen_with_glare(corner, light));
+    let scattered = textureSampleLevel(spread, between, corner.position.xy * corner.retina.zw, 0.0);
+    let light = corner.retina.x * at_pixel(corner) + corner.retina.y * scattered;
+    return codes(corner, sent(corner, light));
 }
 
-// Where it resolves no more than a coarser level holds.
+// Where a coarser level holds all that it resolves.
 @fragment
 fn soft(corner: Corner) -> @location(0) vec4f {
     return codes(corner, textureSampleLevel(coarse, between, corner.position.xy * corner.coarse.xy, 0.0));
@@ -89,27 +81,22 @@ fn at_pixel(corner: Corner) -> LuminanceXyzv {
     return textureSampleLevel(frame, nearest, corner.position.xy * corner.pixel, 0.0);
 }
 
-// Given the light that is resolved at a pixel, what is shown there.
-fn seen_with_glare(corner: Corner, resolved: LuminanceXyzv) -> vec4f {
-    let scattered = textureSampleLevel(spread, between, corner.position.xy * corner.retina.zw, 0.0);
-    return seen_of(shown, between, corner.retina.x * resolved + corner.retina.y * scattered);
+// Given the light on the retina, what the primaries are sent, and its luminance.
+fn sent(corner: Corner, light: LuminanceXyzv) -> vec4f {
+    let seen = seen_of(shown, between, light);
+    return vec4f(sent_of(corner.red, corner.green, corner.blue, seen.xyz), seen.w);
 }
 
-// Given X, Y and Z in shares of the screen's peak, and the luminance that they come of.
-fn codes(corner: Corner, seen: vec4f) -> vec4f {
-    var xyz = seen.xyz;
+// Given what the primaries are sent, and the luminance that it comes of.
+fn codes(corner: Corner, sent: vec4f) -> vec4f {
+    var rgb = sent.rgb;
     if HAS_GRAIN {
         let place = corner.position.xy * corner.grain.x + corner.coarse.zw;
         let here = textureSampleLevel(noise, repeated, place, 0.0).x;
         // The fewer quanta are caught, the more their number varies.
         let strength = corner.grain.y;
-        let of_counts = min(strength * inverseSqrt(seen.w + strength * strength), 0.5);
-        xyz *= max(1.0 + here * of_counts, 0.0);
+        let of_counts = min(strength * inverseSqrt(sent.w + strength * strength), 0.5);
+        rgb *= max(1.0 + here * of_counts, 0.0);
     }
-    let rgb = vec3f(dot(corner.red.xyz, xyz), dot(corner.green.xyz, xyz), dot(corner.blue.xyz, xyz));
-    var sent = gamut(rgb, xyz.y);
-    if IS_RED {
-        sent = vec3f(dot(vec3f(corner.red.w, corner.green.w, corner.blue.w), sent), 0.0, 0.0);
-    }
-    return shown_code(saturate(sent), corner.position.xy);
+    return shown_code(saturate(rgb), corner.position.xy);
 }

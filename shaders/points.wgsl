@@ -14,8 +14,8 @@ struct Corner {
     @location(0) @interpolate(flat) centre_px: vec2f,
     // Shares of white, times square pixels.
     @location(1) @interpolate(flat) shown: vec3f,
-    // Size of a code of the picture here, shares of white.
-    @location(2) @interpolate(flat) code: f32,
+    // Size of a code of the picture here, shares of white of each primary; 0 where there are no codes.
+    @location(2) @interpolate(flat) code: vec3f,
 }
 
 // How the light of a point is parted, and the table of its halo.
@@ -29,14 +29,15 @@ struct Halo {
 @group(0) @binding(0) var between: sampler;
 @group(0) @binding(1) var<uniform> retina: Retina;
 @group(0) @binding(2) var<uniform> halo: Halo;
-// For a background: shares of white times square pixels for a lux, the faintest point that is seen in lux, and
-// the size of a code.
+// For a background: shares of white times square pixels for a lux, and the faintest point that is seen in lux.
 @group(0) @binding(3) var visible: texture_2d<f32>;
 // The frame around, and what is spread of it, coarse.
 @group(0) @binding(4) var around: texture_2d<f32>;
 @group(0) @binding(5) var spread_around: texture_2d<f32>;
 // Light of the halo per square pixel, by the logarithm of the distance.
 @group(0) @binding(6) var halo_rows: texture_2d<f32>;
+@group(0) @binding(7) var<uniform> display: DisplayRows;
+@group(0) @binding(8) var shown: texture_2d<f32>;
 
 // A point begins to show at this share of the threshold, a tenth of a magnitude below.
 const GLIMPSED: f32 = 0.91;
@@ -56,12 +57,27 @@ fn vertex(point: Point, @builtin(vertex_index) index: u32) -> Corner {
     let strength = point.illuminance * seen.x * share;
     let brightest = strength * max(point.colour.r, max(point.colour.g, point.colour.b));
     // The pixels whose centres lie within two pixels of the point; none of a point that is not seen.
-    let reach = select(0.0, max(halo_reach(LEAST_CODE * max(seen.z, DEEP_CODE) / brightest), 2.0), share > 0.0);
+    let sent = sent_of(display.red, display.green, display.blue, seen_of(shown, between, background).xyz);
+    let code = code_sizes(saturate(sent));
+    let least = LEAST_CODE * max(max(code.r, code.g), max(code.b, DEEP_CODE));
+    let reach = select(0.0, max(halo_reach(least / brightest), 2.0), share > 0.0);
     let first = floor(centre - 0.5) + 1.0 - ceil(reach);
     let extent = 2.0 * ceil(reach);
     let corner = (first + extent * vec2f(f32(index & 1u), f32(index >> 1u))) / retina.size_px;
     let position = vec4f(2.0 * corner.x - 1.0, 1.0 - 2.0 * corner.y, 0.0, 1.0);
-    return Corner(position, centre, strength * point.colour, seen.z);
+    return Corner(position, centre, strength * point.colour, code);
+}
+
+// Given linear shares of white, how much light a code is worth there: the slope of the transfer curve.
+fn code_sizes(linear: vec3f) -> vec3f {
+    if CODE_STEPS == 0.0 {
+        return vec3f(0.0);
+    }
+    if !IS_ENCODED {
+        return vec3f(1.0 / CODE_STEPS);
+    }
+    let curved = 2.2748815 * pow(linear, vec3f(0.58333333));
+    return select(curved, vec3f(1.0 / 12.92), linear <= vec3f(0.0031308)) / CODE_STEPS;
 }
 
 // Given a row of the table of the halo, its light per square pixel; none beyond the last.
@@ -90,6 +106,9 @@ fn fragment(corner: Corner) -> @location(0) vec4f {
     let light = corner.shown * (core + halo_row(row));
     // What is too bright for the screen keeps its colour.
     let held = light / max(1.0, max(light.r, max(light.g, light.b)));
-    let noise = (dither(corner.position.yx) - 0.5) * corner.code;
-    return vec4f(max(held + noise * step(vec3f(1e-7), held), vec3f(0.0)), 0.0);
+    // The target rounds each sum to a code: what is less than one is given whole, in so many pixels.
+    let steps = held / max(corner.code, vec3f(1e-20));
+    let rounded = corner.code * floor(steps + dither(corner.position.yx));
+    let are_few = (steps < vec3f(8.0)) & (corner.code > vec3f(0.0));
+    return vec4f(select(held, rounded, are_few), 0.0);
 }

@@ -8,7 +8,7 @@ struct Step {
     level: f32,
     // Share of the light that is not spread at all.
     in_place: f32,
-    // How much of the last three texels of each axis lies in the picture.
+    // How much of the last three texels of each axis lies in the picture, and the number of its texels.
     within_x: vec4f,
     within_y: vec4f,
 }
@@ -66,18 +66,17 @@ fn halved(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
     return 0.25 * part.x * part.y * (above + below);
 }
 
-// Given a texel of an axis, how much of it lies in the picture.
-fn within(texel: u32, texels: u32, last: vec4f) -> f32 {
-    let from_end = texels - texel;
-    return select(select(select(1.0, last.x, from_end == 3u), last.y, from_end == 2u), last.z, from_end == 1u);
+// Given the number of a texel of an axis, counted from 1 at its end, how much of it lies in the picture.
+fn within(from_end: f32, last: vec4f) -> f32 {
+    return select(select(select(1.0, last.x, from_end == 3.0), last.y, from_end == 2.0), last.z, from_end == 1.0);
 }
 
 // Given a texel of this level, the luminance there.
 fn luminance(corner: Corner) -> LuminanceXyzv {
-    let texel = vec2u(corner.position.xy);
-    let texels = textureDimensions(picture);
-    let part = within(texel.x, texels.x, corner.within_x) * within(texel.y, texels.y, corner.within_y);
-    let place = corner.position.xy / vec2f(texels);
+    let texels = vec2f(corner.within_x.w, corner.within_y.w);
+    let from_end = texels - floor(corner.position.xy);
+    let part = within(from_end.x, corner.within_x) * within(from_end.y, corner.within_y);
+    let place = corner.position.xy / texels;
     return textureSampleLevel(picture, nearest, place, 0.0) / part;
 }
 
@@ -114,18 +113,53 @@ fn spread_and_blurred(corner: Corner) -> SpreadAndBlurred {
     return stepped_up(corner);
 }
 
+// What is shown where the eye resolves no more than this level, or there is no more to resolve.
 @group(0) @binding(6) var shown: texture_2d<f32>;
+@group(0) @binding(8) var<uniform> display: DisplayRows;
 
-// What is shown where the eye resolves no more than this level: linear X, Y and Z, and the light.
-@fragment
-fn seen(corner: Corner) -> @location(0) vec4f {
-    let wider = from_coarser(coarser, corner.position.xy);
-    return seen_of(shown, between, corner.shares.x * luminance(corner) + corner.shares.y * wider);
+struct TileCorner {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) shares: vec4f,
+    @location(1) @interpolate(flat) within_x: vec4f,
+    @location(2) @interpolate(flat) within_y: vec4f,
+    @location(3) @interpolate(flat) red: vec4f,
+    @location(4) @interpolate(flat) green: vec4f,
+    @location(5) @interpolate(flat) blue: vec4f,
 }
 
-// The same where it resolves less in places.
+// A tile of the picture with a texel around it.
+@vertex
+fn tile(@location(0) tile: vec4u, @builtin(vertex_index) index: u32) -> TileCorner {
+    let scale = exp2(-step.level);
+    let first = floor(scale * vec2f(tile.xy)) - 1.0;
+    let last = ceil(scale * vec2f(tile.zw)) + 1.0;
+    let is_far = vec2<bool>((index & 1u) == 1u, (index >> 1u) == 1u);
+    let place = select(first, last, is_far) / vec2f(step.within_x.w, step.within_y.w);
+    return TileCorner(
+        vec4f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0),
+        vec4f(step.share, step.coarser, step.level, step.in_place),
+        step.within_x,
+        step.within_y,
+        display.red,
+        display.green,
+        display.blue,
+    );
+}
+
+// Linear shares of the screen's primaries, and the light that they come of.
 @fragment
-fn seen_blurred(corner: Corner) -> @location(0) vec4f {
-    let up = stepped_up(corner);
-    return seen_of(shown, between, corner.shares.w * up.blurred + up.spread);
+fn seen(corner: TileCorner) -> @location(0) vec4f {
+    let here = Corner(corner.position, corner.shares, corner.within_x, corner.within_y);
+    let wider = from_coarser(coarser, corner.position.xy);
+    let retina = corner.shares.x * luminance(here) + corner.shares.y * wider;
+    let seen = seen_of(shown, between, retina);
+    return vec4f(sent_of(corner.red, corner.green, corner.blue, seen.xyz), seen.w);
+}
+
+// The same where less is resolved in places.
+@fragment
+fn seen_blurred(corner: TileCorner) -> @location(0) vec4f {
+    let up = stepped_up(Corner(corner.position, corner.shares, corner.within_x, corner.within_y));
+    let seen = seen_of(shown, between, corner.shares.w * up.blurred + up.spread);
+    return vec4f(sent_of(corner.red, corner.green, corner.blue, seen.xyz), seen.w);
 }

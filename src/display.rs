@@ -194,11 +194,6 @@ pub fn srgb_curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// How much light a code is worth: the derivative of the inverse of [`srgb_curve`] at a share of white.
-pub fn srgb_slope(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 1.0 / 12.92 } else { 2.4 / 1.055 * linear.powf(1.4 / 2.4) }
-}
-
 /// A colour within the gamut, and with its hue, of any linear RGB and its luminance.
 pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     let grey = luminance.max(0.0);

@@ -47,6 +47,8 @@ pub struct Cell {
     pub light: [f64; 4],
     /// By how much glare has changed it, as a share of it.
     pub glare: f64,
+    /// By how much it differs from the mean of its neighbours, as a share of it, along either axis.
+    pub bend: f64,
 }
 
 /// The foveal picture.
@@ -79,9 +81,15 @@ impl Foveal {
         let cell = |(before, after): (&[f32; 4], &[f32; 4])| {
             let light = after.map(|channel| f64::from(channel).max(0.0));
             let before = f64::from(before[1]).max(f64::MIN_POSITIVE);
-            Cell { light, glare: (light[1] / before - 1.0).abs() }
+            Cell { light, glare: (light[1] / before - 1.0).abs(), bend: f64::INFINITY }
         };
-        let cells = light.pixels().iter().zip(retina.pixels()).map(cell).collect();
+        let mut cells: Vec<Cell> = light.pixels().iter().zip(retina.pixels()).map(cell).collect();
+        let height = cells.len() / width.max(1);
+        for at in 0..cells.len() {
+            let across = bend_along(&cells, at, [at % width, width], 1);
+            let down = bend_along(&cells, at, [at / width, height], width);
+            cells[at].bend = across.max(down);
+        }
         Foveal { level, width, cells }
     }
 
@@ -97,4 +105,24 @@ impl Foveal {
             columns.clone().map(move |column| &self.cells[row * self.width + column])
         })
     }
+}
+
+/// The bend of a cell along an axis of which it is one of so many, each a step from the next; at an edge
+/// that of its neighbour.
+fn bend_along(cells: &[Cell], at: usize, [place, len]: [usize; 2], step: usize) -> f64 {
+    if len < 3 {
+        return f64::INFINITY;
+    }
+    let middle = match place {
+        0 => at + step,
+        last if last + 1 == len => at - step,
+        _ => at,
+    };
+    let [before, here, after] = [middle - step, middle, middle + step].map(|at| cells[at].light);
+    // Y, and Z for the colour.
+    let bends = [1, 2].map(|part: usize| {
+        let bend = before[part] - 2.0 * here[part] + after[part];
+        bend.abs() / here[part].max(f64::MIN_POSITIVE)
+    });
+    bends.into_iter().fold(0.0, f64::max)
 }

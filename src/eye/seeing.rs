@@ -1,8 +1,10 @@
 //! What an eye makes of a picture, as numbers and tables for the passes that draw it.
 
+use std::sync::OnceLock;
+
 use glam::{DMat3, DVec3};
 
-use crate::display::{Display, srgb_slope, within_gamut};
+use crate::display::{Display, within_gamut};
 use crate::image::HdrFrame;
 use crate::units::{Angle, Xyzv};
 
@@ -10,7 +12,7 @@ use super::adaptation::{Adaptation, level_cd_m2};
 use super::foveal::{Foveal, View};
 use super::glare::{Glare, Halo, shares};
 use super::limiting_magnitude::{luminance_for_rods, threshold_lx};
-use super::receptors::{Mix, mix, seen_luminance_cd_m2};
+use super::receptors::{Mix, NightColour, mix, seen_luminance_cd_m2};
 use super::tone_curve::{Screen, ToneCurve};
 use super::white::adapted_from_seen;
 use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
@@ -18,8 +20,6 @@ use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
 /// Solid angle over which the eye sees the colour of a point: some three minutes of arc across, what
 /// remains of a point on the retina (CIE 135/1's second bell).
 const POINT_SR: f64 = 7.6e-7;
-/// The highest code of 8 bits.
-const CODES: f64 = 255.0;
 
 /// What the eye makes of a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,14 +41,24 @@ pub struct Seeing {
     /// rods give.
     pub shown: Vec<[f32; 4]>,
     /// Over the light around: what is shown of a point, in shares of the screen's white times square
-    /// pixels for a lux; the faintest point that is seen, lux; the size of a code of the picture there.
+    /// pixels for a lux; the faintest point that is seen, lux.
     pub visible: Vec<[f32; 4]>,
     /// Linear RGB of the screen of X, Y and Z as they are seen, the white of the scene for white.
     pub rgb_from_seen: DMat3,
     /// Whether points of light are seen as points, or as part of the frame like everything else.
     pub sees_points: bool,
     magnification: f64,
-    night: super::receptors::NightColour,
+    night: NightColour,
+}
+
+/// What the receptors make of a light.
+struct Mixed {
+    /// The luminance that cones give, and the X, Y and Z that rods give, cd/m2.
+    parts: [f64; 4],
+    /// What the tone curve maps, cd/m2.
+    seen: f64,
+    /// The faintest point that is seen against it with a field factor of 1, lux.
+    faintest_lx: f64,
 }
 
 /// A point of light as it is seen.
@@ -139,18 +149,42 @@ impl Eye {
 
     fn shown(&self, curve: &ToneCurve) -> Vec<[f32; 4]> {
         let brighter = self.exposure_stops.exp2();
-        light_table::table(|photopic, scotopic| {
-            // The paper's curve is that of the light as it comes in.
-            let (mix, seen) = match self.model {
-                Model::Standard => {
-                    let seen = seen_luminance_cd_m2(self.night_colour, photopic, scotopic);
-                    (mix(self.night_colour, photopic, scotopic), seen)
+        let mixed = self.mixed().iter();
+        mixed
+            .map(|Mixed { parts, seen, .. }| {
+                let gain = if *seen > 0.0 { curve.shown(seen * brighter) / seen } else { 0.0 };
+                parts.map(|part| (part * gain) as f32)
+            })
+            .collect()
+    }
+
+    /// What its receptors make of the lights of the tables, reckoned once.
+    fn mixed(&self) -> &'static [Mixed] {
+        static MIXED: [OnceLock<Vec<Mixed>>; 4] = [const { OnceLock::new() }; 4];
+        let kind = match (self.model, self.night_colour) {
+            (Model::Paper, _) => 0,
+            (Model::Standard, NightColour::Jensen) => 1,
+            (Model::Standard, NightColour::Intrusion) => 2,
+            (Model::Standard, NightColour::Day) => 3,
+        };
+        MIXED[kind].get_or_init(|| {
+            light_table::table(|photopic, scotopic| {
+                // The paper's curve is that of the light as it comes in.
+                let (mix, seen) = match self.model {
+                    Model::Standard => {
+                        let seen = seen_luminance_cd_m2(self.night_colour, photopic, scotopic);
+                        (mix(self.night_colour, photopic, scotopic), seen)
+                    }
+                    Model::Paper => (published_mix(photopic), photopic),
+                };
+                let [x, y, z] = mix.rods.map(|rods| rods * scotopic);
+                let parts = [mix.cones * photopic, x, y, z];
+                Mixed {
+                    parts,
+                    seen,
+                    faintest_lx: threshold_lx(luminance_for_rods(photopic, scotopic)),
                 }
-                Model::Paper => (published_mix(photopic), photopic),
-            };
-            let gain = if seen > 0.0 { curve.shown(seen * brighter) / seen } else { 0.0 };
-            let [x, y, z] = mix.rods.map(|rods| rods * scotopic);
-            [mix.cones * photopic, x, y, z].map(|part| (part * gain) as f32)
+            })
         })
     }
 
@@ -161,20 +195,15 @@ impl Eye {
         threshold_factor: f64,
     ) -> Vec<[f32; 4]> {
         let screen_pixel_sr = Angle::from_arcmin(display.pixel_arcmin).rad().powi(2);
-        light_table::table(|photopic, scotopic| {
-            let seen = seen_luminance_cd_m2(self.night_colour, photopic, scotopic);
-            let share = curve.shown(seen);
-            let faintest_lx =
-                threshold_factor * threshold_lx(luminance_for_rods(photopic, scotopic));
+        let visible = |mixed: &Mixed| {
+            let share = curve.shown(mixed.seen);
+            let faintest_lx = threshold_factor * mixed.faintest_lx;
             let on_screen_lx = threshold_lx(share * display.peak_cd_m2 + display.surround_cd_m2);
             let shown = self.exposure_stops.exp2() * on_screen_lx
                 / (faintest_lx * screen_pixel_sr * display.peak_cd_m2);
-            let code = match display.space.is_encoded() {
-                true => srgb_slope(share) / CODES,
-                false => CODES.recip(),
-            };
-            [shown, faintest_lx * self.field_factor, code, 0.0].map(|value| value as f32)
-        })
+            [shown, faintest_lx * self.field_factor, 0.0, 0.0].map(|value| value as f32)
+        };
+        self.mixed().iter().map(visible).collect()
     }
 }
 

@@ -15,10 +15,10 @@ use crate::eye::seeing::Seeing;
 use crate::plan::Splat;
 use crate::units::Angle;
 
-use super::eye_tiles::{EyeTiles, Tile};
+use super::eye_tiles::{EyeTiles, FINISHED_LEVELS, Tile};
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, Stage};
 use super::picture::{Depth, PictureTarget};
-use super::pyramid::{FINISHED_LEVELS, Pyramid, PyramidPass, Up};
+use super::pyramid::{Pyramid, PyramidPass, Screen, Up, tile_layout};
 use super::shaders;
 use super::target::Target;
 use super::uniforms::{
@@ -75,7 +75,7 @@ struct Work<'a> {
     pipelines: Pipelines,
     picture: &'a PictureTarget,
     retina: RetinaUniform,
-    shown: wgpu::TextureView,
+    screen: Screen,
     levels_resolved: wgpu::TextureView,
 }
 
@@ -140,6 +140,7 @@ impl EyePass {
 
         let tiles = EyeTiles::of(
             size_px,
+            pyramid.len(),
             &seeing.foveal,
             seeing.levels_resolved.as_deref(),
             !seeing.glare_shares.is_empty(),
@@ -150,9 +151,6 @@ impl EyePass {
             has_grain: scene.eye.grain.is_some(),
         };
         let around = FINISHED_LEVELS.min(pyramid.len());
-        let across = |level: usize| {
-            pyramid.level_px(level).map(|texels| 0.5f32.powi(level as i32) / texels as f32)
-        };
         let spread_from = |level: usize| match tiles.scatters {
             true => seeing.glare_shares.iter().skip(level - 1).sum::<f64>(),
             false => 0.0,
@@ -168,10 +166,10 @@ impl EyePass {
                 in_place: (1.0 - spread_from(around)) as f32,
                 spread: if tiles.scatters { 1.0 } else { 0.0 },
                 size_px: size_px.map(|edge| edge as f32),
-                soft_scale: across(tiles.soft_level),
-                around_scale: across(around),
+                soft_scale: [0.0; 2],
+                around_scale: pyramid.pixel_on(around),
             },
-            shown: table_texture(gpu, "shown", &seeing.shown),
+            screen: screen(gpu, scene.display, &seeing),
             levels_resolved: row_texture(gpu, seeing.levels_resolved.as_deref().unwrap_or(&[0.0])),
         };
         self.pixels(frame, &work, &tiles, around);
@@ -229,51 +227,49 @@ impl EyePass {
         if tiles.scatters || tiles.blurs {
             self.pyramid.up(frame, pyramid, &up, (around..=pyramid.len()).rev());
         }
-        let coarse = match tiles.soft.is_empty() {
-            true => None,
-            false => self.pyramid.seen(frame, pyramid, &up, tiles.soft_level, &work.shown),
-        };
         let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
-        let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
-        let display = DisplayUniform::of(work.scene.display, work.seeing.rgb_from_seen);
-        let display = uniform("display", bytemuck::bytes_of(&display));
         let grain = uniform("grain", bytemuck::bytes_of(&grain(work.scene)));
         let noise = noise_texture(gpu, work.scene.eye.grain);
         let frame_view = frame.view();
-        let everything = [
-            (0, self.pyramid.sampler()),
-            (1, retina.as_entire_binding()),
-            (2, display.as_entire_binding()),
-            (3, view(&work.shown)),
-            (4, view(&frame_view)),
-            (5, view(pyramid.spread(around))),
-            (6, view(coarse.unwrap_or(&work.shown))),
-            (7, wgpu::BindingResource::Sampler(&self.pyramid.nearest)),
-            (8, grain.as_entire_binding()),
-            (9, view(&noise)),
-            (10, wgpu::BindingResource::Sampler(&self.repeated)),
-        ];
         let pipelines = &work.pipelines;
-        let kinds: [(&wgpu::RenderPipeline, &[Tile], &[u32]); 3] = [
-            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4, 7, 8, 9, 10]),
-            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5, 7, 8, 9, 10]),
-            (&pipelines.soft, &tiles.soft, &[0, 1, 2, 6, 8, 9, 10]),
+        let mut kinds: Vec<(&wgpu::RenderPipeline, &[Tile], &[u32], usize)> = vec![
+            (&pipelines.plain, &tiles.plain, &[0, 1, 2, 3, 4, 7, 8, 9, 10], 0),
+            (&pipelines.sharp, &tiles.sharp, &[0, 1, 2, 3, 4, 5, 7, 8, 9, 10], 0),
         ];
-        let draws: Vec<_> = kinds
-            .into_iter()
-            .filter(|(_, tiles, _)| !tiles.is_empty())
-            .map(|(pipeline, tiles, needed)| {
-                let bound: Vec<_> = everything
-                    .iter()
-                    .filter(|(number, _)| needed.contains(number))
-                    .cloned()
-                    .collect();
-                let group = gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
-                let bytes = bytemuck::cast_slice(tiles);
-                let instances = gpu.buffer("tiles", bytes, wgpu::BufferUsages::VERTEX);
-                (pipeline, group, instances, tiles.len() as u32)
-            })
-            .collect();
+        for (level, soft) in (1..).zip(&tiles.soft) {
+            kinds.push((&pipelines.soft, soft, &[0, 1, 2, 6, 8, 9, 10], level));
+        }
+        kinds.retain(|(_, tiles, ..)| !tiles.is_empty());
+        let mut draws = Vec::new();
+        for (pipeline, tiles, needed, level) in kinds {
+            let mut retina = work.retina;
+            let mut coarse = None;
+            if level > 0 {
+                let screen = &work.screen;
+                coarse = self.pyramid.seen(frame, pyramid, &up, level, tiles, screen);
+                retina.soft_scale = pyramid.pixel_on(level);
+            }
+            let retina = uniform("retina", bytemuck::bytes_of(&retina));
+            let everything = [
+                (0, self.pyramid.sampler()),
+                (1, retina.as_entire_binding()),
+                (2, work.screen.display.as_entire_binding()),
+                (3, view(&work.screen.shown)),
+                (4, view(&frame_view)),
+                (5, view(pyramid.spread(around))),
+                (6, view(coarse.unwrap_or(&work.screen.shown))),
+                (7, wgpu::BindingResource::Sampler(&self.pyramid.nearest)),
+                (8, grain.as_entire_binding()),
+                (9, view(&noise)),
+                (10, wgpu::BindingResource::Sampler(&self.repeated)),
+            ];
+            let bound: Vec<_> =
+                everything.into_iter().filter(|(number, _)| needed.contains(number)).collect();
+            let group = gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound);
+            let bytes = bytemuck::cast_slice(tiles);
+            let instances = gpu.buffer("tiles", bytes, wgpu::BufferUsages::VERTEX);
+            draws.push((pipeline, group, instances, tiles.len() as u32));
+        }
         frame.picture_pass("seeing", &[work.picture.codes()], |pass| {
             for (pipeline, group, instances, count) in &draws {
                 pass.set_pipeline(pipeline);
@@ -326,6 +322,8 @@ impl EyePass {
                 (4, view(pyramid.light(around))),
                 (5, view(pyramid.spread(around))),
                 (6, view(&rows)),
+                (7, work.screen.display.as_entire_binding()),
+                (8, view(&work.screen.shown)),
             ],
         );
         frame.adding_pass("points", work.picture.light(), |pass| {
@@ -344,13 +342,9 @@ impl EyePass {
         }
         let mut constants = picture_constants(&kind.display, kind.depth).to_vec();
         let is = |truth: bool| f64::from(u8::from(truth));
-        constants.push(("HAS_GRAIN", is(kind.has_grain)));
         constants.push(("IS_RED", is(kind.display.red)));
-        let tile = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Tile>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![0 => Uint32x4],
-        };
+        let of_screen = constants.clone();
+        constants.push(("HAS_GRAIN", is(kind.has_grain)));
         let pixels = |entry| {
             gpu.chain_pipeline(&Stage {
                 label: "seeing",
@@ -358,7 +352,7 @@ impl EyePass {
                 entries: ["vertex", entry],
                 constants: &constants,
                 targets: &[kind.depth.codes_format()],
-                buffers: &[Some(tile.clone())],
+                buffers: &[Some(tile_layout())],
                 adds: false,
             })
         };
@@ -371,7 +365,7 @@ impl EyePass {
             label: "points",
             source: shaders::assembled("points"),
             entries: ["vertex", "fragment"],
-            constants: &[],
+            constants: &of_screen,
             targets: &[kind.depth.light_format(kind.display.space)],
             buffers: &[Some(instance)],
             adds: true,
@@ -384,6 +378,17 @@ impl EyePass {
         };
         made.push((kind, pipelines.clone()));
         pipelines
+    }
+}
+
+/// The screen as the passes know it.
+fn screen(gpu: &Gpu, display: &Display, seeing: &Seeing) -> Screen {
+    let rows = DisplayUniform::of(display, seeing.rgb_from_seen);
+    let bytes = bytemuck::bytes_of(&rows);
+    Screen {
+        shown: table_texture(gpu, "shown", &seeing.shown),
+        display: gpu.buffer("display", bytes, wgpu::BufferUsages::UNIFORM),
+        is_red: display.red,
     }
 }
 

@@ -77,6 +77,7 @@ const ADD: wgpu::BlendState = {
 };
 
 /// A step from pictures to pictures: over all pixels, or, with vertex buffers, in quads.
+#[derive(Clone)]
 pub struct Stage<'a> {
     pub label: &'a str,
     pub source: String,

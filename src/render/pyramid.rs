@@ -7,13 +7,11 @@
 use crate::eye::glare::pyramid::{level_count, places_within};
 use crate::image::HdrFrame;
 
+use super::eye_tiles::{FINISHED_LEVELS, Tile};
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, Stage};
 use super::shaders;
 use super::target::{self, Target};
 use super::uniforms::PyramidStepUniform;
-
-/// A picture can be finished at these levels: 1 and 2.
-pub const FINISHED_LEVELS: usize = 2;
 
 /// The pipelines of the steps.
 pub struct PyramidPass {
@@ -21,8 +19,8 @@ pub struct PyramidPass {
     halved: wgpu::RenderPipeline,
     spread: wgpu::RenderPipeline,
     spread_and_blurred: wgpu::RenderPipeline,
-    seen: wgpu::RenderPipeline,
-    seen_blurred: wgpu::RenderPipeline,
+    /// For screens of all colours and of red alone, each of a picture that is not blurred and of one that is.
+    seen: [[wgpu::RenderPipeline; 2]; 2],
     pub between: wgpu::Sampler,
     pub nearest: wgpu::Sampler,
 }
@@ -56,6 +54,24 @@ pub struct Up<'a> {
     pub levels_resolved: &'a wgpu::TextureView,
     /// Whether that matters.
     pub blurs: bool,
+}
+
+/// What the light is shown on.
+pub struct Screen {
+    /// What cones and rods give.
+    pub shown: wgpu::TextureView,
+    /// The rows of its matrix.
+    pub display: wgpu::Buffer,
+    pub is_red: bool,
+}
+
+/// Tiles as instances.
+pub fn tile_layout() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Tile>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &wgpu::vertex_attr_array![0 => Uint32x4],
+    }
 }
 
 impl Pyramid {
@@ -109,6 +125,11 @@ impl Pyramid {
         [texture.width(), texture.height()]
     }
 
+    /// A pixel of the frame on a level, from 0 to 1 across it.
+    pub fn pixel_on(&self, level: usize) -> [f32; 2] {
+        self.level_px(level).map(|texels| 0.5f32.powi(level as i32) / texels as f32)
+    }
+
     /// Has the passes recorded so far done, and brings the light of a level back.
     pub fn read(&self, frame: &mut Target, level: usize) -> Result<HdrFrame, GpuError> {
         frame.submit();
@@ -120,23 +141,35 @@ fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&Default::default())
 }
 
-/// What the shader knows of the parts of texels: all before the last three are whole.
+/// What the shader knows of the parts of texels, all before the last three being whole, and their number.
 fn last_three(within: &[f64]) -> [f32; 4] {
     let from_end = |back: usize| within.len().checked_sub(back).map_or(1.0, |n| within[n] as f32);
-    [from_end(3), from_end(2), from_end(1), 0.0]
+    [from_end(3), from_end(2), from_end(1), within.len() as f32]
 }
 
 impl PyramidPass {
     pub fn new(gpu: &Gpu) -> PyramidPass {
+        let stage = Stage {
+            label: "pyramid",
+            source: shaders::assembled("pyramid"),
+            entries: ["vertex", "first"],
+            constants: &[],
+            targets: &[FRAME_FORMAT],
+            buffers: &[],
+            adds: false,
+        };
         let pipeline = |vertex, fragment, targets| {
-            gpu.chain_pipeline(&Stage {
-                label: "pyramid",
-                source: shaders::assembled("pyramid"),
-                entries: [vertex, fragment],
-                constants: &[],
-                targets,
-                buffers: &[],
-                adds: false,
+            gpu.chain_pipeline(&Stage { entries: [vertex, fragment], targets, ..stage.clone() })
+        };
+        let tile = [Some(tile_layout())];
+        let seen = |is_red: bool| {
+            ["seen", "seen_blurred"].map(|fragment| {
+                gpu.chain_pipeline(&Stage {
+                    entries: ["tile", fragment],
+                    constants: &[("IS_RED", f64::from(u8::from(is_red)))],
+                    buffers: &tile,
+                    ..stage.clone()
+                })
             })
         };
         PyramidPass {
@@ -144,8 +177,7 @@ impl PyramidPass {
             halved: pipeline("vertex", "halved", &[FRAME_FORMAT]),
             spread: pipeline("upward", "spread", &[FRAME_FORMAT]),
             spread_and_blurred: pipeline("upward", "spread_and_blurred", &[FRAME_FORMAT; 2]),
-            seen: pipeline("upward", "seen", &[FRAME_FORMAT]),
-            seen_blurred: pipeline("upward", "seen_blurred", &[FRAME_FORMAT]),
+            seen: [seen(false), seen(true)],
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
             nearest: gpu.nearest_sampler(),
         }
@@ -190,19 +222,28 @@ impl PyramidPass {
         }
     }
 
-    /// Makes a picture of what is shown at the resolution of one of the [`FINISHED_LEVELS`].
+    /// Makes a picture of what is shown in some tiles, at the resolution of one of the
+    /// [`FINISHED_LEVELS`].
     pub fn seen<'p>(
         &self,
         frame: &mut Target,
         pyramid: &'p Pyramid,
         up: &Up,
         level: usize,
-        shown: &wgpu::TextureView,
+        tiles: &[Tile],
+        screen: &Screen,
     ) -> Option<&'p wgpu::TextureView> {
-        let pipeline = if up.blurs { &self.seen_blurred } else { &self.seen };
         let picture = pyramid.levels[level - 1].seen.as_ref()?;
-        let group = self.step_up(frame, pyramid, up, level, pipeline, Some(shown));
-        frame.picture_pass("seen", &[picture], |pass| fill(pass, pipeline, &group));
+        let pipeline = &self.seen[usize::from(screen.is_red)][usize::from(up.blurs)];
+        let group = self.step_up(frame, pyramid, up, level, pipeline, Some(screen));
+        let bytes = bytemuck::cast_slice(tiles);
+        let instances = frame.gpu.buffer("tiles", bytes, wgpu::BufferUsages::VERTEX);
+        frame.picture_pass("seen", &[picture], |pass| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_vertex_buffer(0, instances.slice(..));
+            pass.draw(0..4, 0..tiles.len() as u32);
+        });
         Some(picture)
     }
 
@@ -213,20 +254,25 @@ impl PyramidPass {
         up: &Up,
         number: usize,
         pipeline: &wgpu::RenderPipeline,
-        shown: Option<&wgpu::TextureView>,
+        screen: Option<&Screen>,
     ) -> wgpu::BindGroup {
         let level = &pyramid.levels[number - 1];
         let coarser = pyramid.levels.get(number);
-        let in_place = 1.0 - up.shares.iter().sum::<f64>();
+        // What finer levels would spread is not worth a pass over them: it stays in place.
+        let finest = if screen.is_some() { number } else { 1 };
+        let spread_from =
+            |level: usize| up.shares.iter().skip(level - 1).fold(0.0, |sum, share| sum + share);
         let share = up.shares.get(number - 1).copied().unwrap_or(0.0);
-        // What is shown without a blur has all that is not spread on the level itself.
-        let share = if shown.is_some() && !up.blurs { in_place + share } else { share };
         let step = PyramidStepUniform {
-            share: share as f32,
-            // Nothing is coarser than the coarsest; its blurred light is its light.
-            coarser: if coarser.is_some() { 1.0 } else { 0.0 },
+            // What is shown without a blur has all that is not spread on the level itself.
+            share: match screen.is_some() && !up.blurs {
+                true => 1.0 - spread_from(number + 1),
+                false => share,
+            } as f32,
+            // Nothing is coarser than the coarsest, and without glare nothing is spread.
+            coarser: if coarser.is_some() && !up.shares.is_empty() { 1.0 } else { 0.0 },
             level: number as f32,
-            in_place: in_place as f32,
+            in_place: (1.0 - spread_from(finest)) as f32,
             within: level.within,
         };
         let step = frame.gpu.buffer("step", bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM);
@@ -245,7 +291,9 @@ impl PyramidPass {
         if up.blurs {
             bound.extend([(4, view(blurred)), (5, view(up.levels_resolved))]);
         }
-        bound.extend(shown.map(|shown| (6, view(shown))));
+        if let Some(Screen { shown, display, .. }) = screen {
+            bound.extend([(6, view(shown)), (8, display.as_entire_binding())]);
+        }
         frame.gpu.bind_mixed(&pipeline.get_bind_group_layout(0), &bound)
     }
 

@@ -21,7 +21,17 @@ pub const SHADERS: [(&str, &[&str]); 15] = [
     ("discs", &[QUANTITIES, CAMERA, GLOBE, DISCS]),
     ("planets", &[QUANTITIES, CAMERA, GLOBE, DISCS, include_str!("../../shaders/planet.wgsl")]),
     ("splats", &[QUANTITIES, CAMERA, SPLAT, include_str!("../../shaders/splats.wgsl")]),
-    ("pyramid", &[QUANTITIES, CAMERA, LIGHT_TABLE, include_str!("../../shaders/pyramid.wgsl")]),
+    (
+        "pyramid",
+        &[
+            QUANTITIES,
+            CAMERA,
+            LIGHT_TABLE,
+            DISPLAY,
+            RETINA,
+            include_str!("../../shaders/pyramid.wgsl"),
+        ],
+    ),
     (
         "eye",
         &[QUANTITIES, CAMERA, LIGHT_TABLE, RETINA, DISPLAY, include_str!("../../shaders/eye.wgsl")],
