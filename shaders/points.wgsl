@@ -7,6 +7,8 @@ struct Point {
     @location(1) colour: vec3f,
     // Lux.
     @location(2) illuminance: f32,
+    // How much of its light is the core, and what remains of its halo beside a flare.
+    @location(3) parts: vec2f,
 }
 
 struct Corner {
@@ -16,14 +18,15 @@ struct Corner {
     @location(1) @interpolate(flat) shown: vec3f,
     // Size of a code of the picture here, shares of white of each primary; 0 where there are no codes.
     @location(2) @interpolate(flat) code: vec3f,
+    @location(3) @interpolate(flat) parts: vec2f,
 }
 
-// How the light of a point is parted, and the table of its halo.
+// The table of halos.
 struct Halo {
-    core: f32,
     rows_per_octave: f32,
     first_log2_px: f32,
     rows: f32,
+    pad: f32,
 }
 
 @group(0) @binding(0) var between: sampler;
@@ -65,19 +68,7 @@ fn vertex(point: Point, @builtin(vertex_index) index: u32) -> Corner {
     let extent = 2.0 * ceil(reach);
     let corner = (first + extent * vec2f(f32(index & 1u), f32(index >> 1u))) / retina.size_px;
     let position = vec4f(2.0 * corner.x - 1.0, 1.0 - 2.0 * corner.y, 0.0, 1.0);
-    return Corner(position, centre, strength * point.colour, code);
-}
-
-// Given linear shares of white, how much light a code is worth there: the slope of the transfer curve.
-fn code_sizes(linear: vec3f) -> vec3f {
-    if CODE_STEPS == 0.0 {
-        return vec3f(0.0);
-    }
-    if !IS_ENCODED {
-        return vec3f(1.0 / CODE_STEPS);
-    }
-    let curved = 2.2748815 * pow(linear, vec3f(0.58333333));
-    return select(curved, vec3f(1.0 / 12.92), linear <= vec3f(0.0031308)) / CODE_STEPS;
+    return Corner(position, centre, strength * point.colour, code, point.parts);
 }
 
 // Given a row of the table of the halo, its light per square pixel; none beyond the last.
@@ -102,13 +93,9 @@ fn halo_reach(least: f32) -> f32 {
 fn fragment(corner: Corner) -> @location(0) vec4f {
     let off = corner.position.xy - corner.centre_px;
     let row = (log2(max(length(off), 1e-3)) - halo.first_log2_px) * halo.rows_per_octave;
-    let core = halo.core * cubic_b_spline(off.x) * cubic_b_spline(off.y);
-    let light = corner.shown * (core + halo_row(row));
+    let core = corner.parts.x * cubic_b_spline(off.x) * cubic_b_spline(off.y);
+    let light = corner.shown * (core + corner.parts.y * halo_row(row));
     // What is too bright for the screen keeps its colour.
     let held = light / max(1.0, max(light.r, max(light.g, light.b)));
-    // The target rounds each sum to a code: what is less than one is given whole, in so many pixels.
-    let steps = held / max(corner.code, vec3f(1e-20));
-    let rounded = corner.code * floor(steps + dither(corner.position.yx));
-    let are_few = (steps < vec3f(8.0)) & (corner.code > vec3f(0.0));
-    return vec4f(select(held, rounded, are_few), 0.0);
+    return vec4f(whole_codes(held, corner.code, corner.position.xy), 0.0);
 }

@@ -88,8 +88,9 @@ pub struct Display {
     /// The angle that a pixel of the screen spans for its viewer, minutes of arc: 1.3 for 24 inches,
     /// 1920 pixels across, seen from 70 cm.
     pub pixel_arcmin: f64,
-    /// Luminance around the screen, to which its viewer is adapted, cd/m2: in the reference conditions of
-    /// IEC 61966-2-1 a room of 64 lux with walls that send a fifth back has 4.1.
+    /// Luminance that the viewer of the screen is adapted to besides the place that is looked at, cd/m2: half
+    /// the white of a screen of 100 (Ward 1994), as in a lit room. The reference room of IEC 61966-2-1,
+    /// dim, has 4.1.
     pub surround_cd_m2: f64,
 }
 
@@ -101,7 +102,7 @@ impl Default for Display {
             red: false,
             dither: true,
             pixel_arcmin: 1.3,
-            surround_cd_m2: 4.1,
+            surround_cd_m2: 50.0,
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::units::{Angle, Xyzv};
 
 use super::adaptation::{Adaptation, level_cd_m2};
 use super::foveal::{Foveal, View};
-use super::glare::{Glare, Halo, shares};
+use super::glare::{Flare, Glare, Halo, Spread, shares};
 use super::limiting_magnitude::{luminance_for_rods, threshold_lx};
 use super::receptors::{Mix, NightColour, mix, seen_luminance_cd_m2};
 use super::tone_curve::{Screen, ToneCurve};
@@ -20,6 +20,9 @@ use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
 /// Solid angle over which the eye sees the colour of a point: some three minutes of arc across, what
 /// remains of a point on the retina (CIE 135/1's second bell).
 const POINT_SR: f64 = 7.6e-7;
+
+/// No point fainter than this has a flare by the widest pupil, lux: a star of magnitude 0.
+const FAINTEST_FLARE_LX: f64 = 2.5e-6;
 
 /// What the eye makes of a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +37,9 @@ pub struct Seeing {
     pub glare_shares: Vec<f64>,
     /// Around points of light; none without glare.
     pub halo: Option<Halo>,
+    /// How the eye scatters; none where it does not.
+    spread: Option<Spread>,
+    pixel: Angle,
     /// Over the columns of [`light_table`]: the level of the pyramid that is as fine as the eye resolves;
     /// none where that does not matter.
     pub levels_resolved: Option<Vec<f32>>,
@@ -68,6 +74,8 @@ pub struct SeenPoint {
     pub colour: [f64; 3],
     /// At the eye, lux.
     pub illuminance_lx: f64,
+    /// How much more light it has than to the naked eye, for what the picture magnifies.
+    pub gathered: f64,
 }
 
 impl Eye {
@@ -99,8 +107,9 @@ impl Eye {
         let glare_shares = spread
             .as_ref()
             .map_or(Vec::new(), |spread| shares(spread, view.pixel, width_px, height_px));
-        let halo =
-            spread.map(|spread| Halo::new(&spread, &glare_shares, view.pixel, width_px, height_px));
+        let halo = spread
+            .as_ref()
+            .map(|spread| Halo::new(spread, &glare_shares, view.pixel, width_px, height_px));
         let foveal = match glare_shares.is_empty() {
             true => unveiled,
             false => Foveal::of(gathered, view, level, &glare_shares),
@@ -126,6 +135,8 @@ impl Eye {
             foveal,
             glare_shares,
             halo,
+            spread,
+            pixel: view.pixel,
             levels_resolved: self.acuity.then(|| levels_resolved(view)),
             shown: self.shown(&curve),
             visible: self.visible(&curve, display, adaptation.threshold_factor()),
@@ -220,6 +231,13 @@ fn levels_resolved(view: &View) -> Vec<f32> {
 }
 
 impl Seeing {
+    /// The flare around points of light; none while the pupil is narrow, or if the brightest, in lux, is
+    /// too faint to have one.
+    pub fn flare(&self, brightest_lx: f64) -> Option<Flare> {
+        let spread = self.spread.as_ref().filter(|_| brightest_lx >= FAINTEST_FLARE_LX)?;
+        Flare::new(spread, self.pixel)
+    }
+
     /// A point of light, from its illuminance in lux.
     pub fn point(&self, illuminance: Xyzv, display: &Display) -> SeenPoint {
         // A telescope gathers as much more light as it magnifies, through the whole pupil.
@@ -232,6 +250,10 @@ impl Seeing {
             true => within_gamut(self.rgb_from_seen * (seen / seen.y * 1e-3), 1e-3) * 1e3,
             false => DVec3::ZERO,
         };
-        SeenPoint { colour: (display.shown_from_rgb() * colour).to_array(), illuminance_lx: lx.y }
+        SeenPoint {
+            colour: (display.shown_from_rgb() * colour).to_array(),
+            illuminance_lx: lx.y,
+            gathered: self.magnification.powi(2),
+        }
     }
 }

@@ -9,9 +9,9 @@ use crate::camera::Camera;
 use crate::display::Display;
 use crate::eye::Eye;
 use crate::eye::foveal::View;
-use crate::eye::glare::{Halo, point};
+use crate::eye::glare::{Flare, Halo, flare, point};
 use crate::eye::light_table;
-use crate::eye::seeing::Seeing;
+use crate::eye::seeing::{Seeing, SeenPoint};
 use crate::plan::Splat;
 use crate::units::Angle;
 
@@ -22,8 +22,8 @@ use super::pyramid::{Pyramid, PyramidPass, Screen, Up, tile_layout};
 use super::shaders;
 use super::target::Target;
 use super::uniforms::{
-    DisplayUniform, GrainUniform, HaloUniform, LevelUniform, PointInstance, RetinaUniform,
-    SplatInstance, picture_constants,
+    DisplayUniform, FlareInstance, FlareUniform, GrainUniform, HaloUniform, LevelUniform,
+    PointInstance, RetinaUniform, SplatInstance, picture_constants,
 };
 
 /// Edge of the picture of noise, texels; `shaders/eye.wgsl` knows it too.
@@ -37,6 +37,8 @@ pub struct EyePass {
     pyramid: PyramidPass,
     point_light: wgpu::RenderPipeline,
     repeated: wgpu::Sampler,
+    /// Goes round from the right edge to the left.
+    turning: wgpu::Sampler,
     /// Made when first asked for, by what the picture is made of.
     pipelines: Mutex<Vec<(Kind, Pipelines)>>,
     /// The textures of the last size.
@@ -57,6 +59,7 @@ struct Pipelines {
     sharp: wgpu::RenderPipeline,
     soft: wgpu::RenderPipeline,
     points: wgpu::RenderPipeline,
+    flares: wgpu::RenderPipeline,
 }
 
 /// What is drawn, and how.
@@ -77,6 +80,8 @@ struct Work<'a> {
     retina: RetinaUniform,
     screen: Screen,
     levels_resolved: wgpu::TextureView,
+    /// Between pixels, as they appear.
+    pixel: Angle,
 }
 
 impl EyePass {
@@ -103,6 +108,7 @@ impl EyePass {
                 mag_filter: wgpu::FilterMode::Linear,
                 ..Default::default()
             }),
+            turning: gpu.linear_sampler(wgpu::AddressMode::Repeat),
             pipelines: Mutex::default(),
             kept: Mutex::default(),
         }
@@ -170,6 +176,7 @@ impl EyePass {
                 around_scale: pyramid.pixel_on(around),
             },
             screen: screen(gpu, scene.display, &seeing),
+            pixel: view.pixel,
             levels_resolved: row_texture(gpu, seeing.levels_resolved.as_deref().unwrap_or(&[0.0])),
         };
         self.pixels(frame, &work, &tiles, around);
@@ -288,15 +295,42 @@ impl EyePass {
         }
         let gpu = frame.gpu;
         let view = wgpu::BindingResource::TextureView;
-        let instance = |point: &Splat| {
-            let seen = seeing.point(point.illuminance, scene.display);
-            PointInstance {
-                centre_px: point.centre_px.map(|v| v as f32),
+        let seen: Vec<SeenPoint> = scene
+            .points
+            .iter()
+            .map(|point| seeing.point(point.illuminance, scene.display))
+            .collect();
+        let brightest_lx = seen.iter().map(|seen| seen.illuminance_lx).fold(0.0, f64::max);
+        let flare = seeing.flare(brightest_lx);
+        let mut flares = Vec::new();
+        let parts = |flare: Option<&Flare>| match &seeing.halo {
+            Some(halo) => {
+                let parts = halo.parts(flare);
+                [parts.core as f32, parts.smooth as f32]
+            }
+            None => [1.0, 0.0],
+        };
+        let (alone, beside_flare) = (parts(None), parts(flare.as_ref()));
+        let mut instances = Vec::with_capacity(seen.len());
+        for (point, seen) in scene.points.iter().zip(&seen) {
+            let centre_px = point.centre_px.map(|v| v as f32);
+            let radius = flare.as_ref().and_then(|flare| {
+                flare.visible_radius(seen.illuminance_lx, seeing.adaptation_cd_m2)
+            });
+            if let Some(radius) = radius {
+                flares.push(FlareInstance {
+                    centre_px,
+                    radius_px: (radius.rad() / work.pixel.rad()) as f32,
+                    illuminance: (point.illuminance * seen.gathered).to_f32(),
+                });
+            }
+            instances.push(PointInstance {
+                centre_px,
                 colour: seen.colour.map(|v| v as f32),
                 illuminance: seen.illuminance_lx as f32,
-            }
-        };
-        let instances: Vec<PointInstance> = scene.points.iter().map(instance).collect();
+                parts: if radius.is_some() { beside_flare } else { alone },
+            });
+        }
         let bytes = bytemuck::cast_slice(&instances);
         let instances = gpu.buffer("points", bytes, wgpu::BufferUsages::VERTEX);
         let visible = exact_table_texture(gpu, "visible", &seeing.visible);
@@ -304,10 +338,10 @@ impl EyePass {
         let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
         let rows = halo_rows(seeing.halo.as_ref());
         let halo = HaloUniform {
-            core: seeing.halo.as_ref().map_or(1.0, |halo| halo.parts(None).core) as f32,
             rows_per_octave: point::PER_OCTAVE as f32,
             first_log2_px: point::FIRST_PX.log2() as f32,
             rows: rows.len() as f32,
+            pad: 0.0,
         };
         let halo = uniform("halo", bytemuck::bytes_of(&halo));
         let rows = row_texture(gpu, &rows);
@@ -331,6 +365,59 @@ impl EyePass {
             pass.set_bind_group(0, &group, &[]);
             pass.set_vertex_buffer(0, instances.slice(..));
             pass.draw(0..4, 0..scene.points.len() as u32);
+        });
+        if let Some(flare) = flare.filter(|_| !flares.is_empty()) {
+            self.flares(frame, work, around, &flare, &flares);
+        }
+    }
+
+    /// Needles and rings around the brightest points.
+    fn flares(
+        &self,
+        frame: &mut Target,
+        work: &Work,
+        around: usize,
+        flare: &Flare,
+        flares: &[FlareInstance],
+    ) {
+        let gpu = frame.gpu;
+        let view = wgpu::BindingResource::TextureView;
+        let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
+        let retina = uniform("retina", bytemuck::bytes_of(&work.retina));
+        let radius_px = (flare.radius().rad() / work.pixel.rad()) as f32;
+        let whole = FlareUniform { radius_px, pad: [0.0; 7] };
+        let whole = uniform("flare", bytemuck::bytes_of(&whole));
+        let texels: Vec<[f32; 4]> =
+            flare.texels().iter().map(|light| light.map(|light| light as f32)).collect();
+        let size = wgpu::Extent3d {
+            width: flare::AZIMUTHS as u32,
+            height: flare::RADII as u32,
+            depth_or_array_layers: 1,
+        };
+        let pattern = gpu.texture_of("flare", size, FRAME_FORMAT, bytemuck::cast_slice(&texels));
+        let pattern = pattern.create_view(&Default::default());
+        let pipeline = &work.pipelines.flares;
+        let group = gpu.bind_mixed(
+            &pipeline.get_bind_group_layout(0),
+            &[
+                (0, self.pyramid.sampler()),
+                (1, retina.as_entire_binding()),
+                (2, whole.as_entire_binding()),
+                (3, work.screen.display.as_entire_binding()),
+                (4, view(&work.screen.shown)),
+                (5, view(work.pyramid.light(around))),
+                (6, view(work.pyramid.spread(around))),
+                (7, view(&pattern)),
+                (8, wgpu::BindingResource::Sampler(&self.turning)),
+            ],
+        );
+        let bytes = bytemuck::cast_slice(flares);
+        let instances = gpu.buffer("flares", bytes, wgpu::BufferUsages::VERTEX);
+        frame.adding_pass("flares", work.picture.light(), |pass| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_vertex_buffer(0, instances.slice(..));
+            pass.draw(0..4, 0..flares.len() as u32);
         });
     }
 
@@ -359,8 +446,24 @@ impl EyePass {
         let instance = wgpu::VertexBufferLayout {
             array_stride: size_of::<PointInstance>() as u64,
             step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x3, 2 => Float32],
+            attributes: &wgpu::vertex_attr_array![
+                0 => Float32x2, 1 => Float32x3, 2 => Float32, 3 => Float32x2
+            ],
         };
+        let of_flares = wgpu::VertexBufferLayout {
+            array_stride: size_of::<FlareInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32, 2 => Float32x4],
+        };
+        let flares = gpu.chain_pipeline(&Stage {
+            label: "flares",
+            source: shaders::assembled("flare"),
+            entries: ["vertex", "fragment"],
+            constants: &of_screen,
+            targets: &[kind.depth.light_format(kind.display.space)],
+            buffers: &[Some(of_flares)],
+            adds: true,
+        });
         let points = gpu.chain_pipeline(&Stage {
             label: "points",
             source: shaders::assembled("points"),
@@ -375,6 +478,7 @@ impl EyePass {
             sharp: pixels("sharp"),
             soft: pixels("soft"),
             points,
+            flares,
         };
         made.push((kind, pipelines.clone()));
         pipelines

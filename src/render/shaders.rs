@@ -8,11 +8,12 @@ const DISCS: &str = include_str!("../../shaders/discs.wgsl");
 const SPLAT: &str = include_str!("../../shaders/lib/splat.wgsl");
 
 const LIGHT_TABLE: &str = include_str!("../../shaders/lib/light_table.wgsl");
+const CODES: &str = include_str!("../../shaders/lib/codes.wgsl");
 const RETINA: &str = include_str!("../../shaders/lib/retina.wgsl");
 const DISPLAY: &str = include_str!("../../shaders/lib/display.wgsl");
 
 /// Every shader of the renderer: the name of its pass, and the sources that make it.
-pub const SHADERS: [(&str, &[&str]); 15] = [
+pub const SHADERS: [(&str, &[&str]); 16] = [
     ("sky", &[QUANTITIES, CAMERA, SKYLIGHT, include_str!("../../shaders/sky.wgsl")]),
     ("sky-in", &[QUANTITIES, SKYLIGHT, include_str!("../../shaders/sky_in.wgsl")]),
     ("milky-way", &[QUANTITIES, CAMERA, include_str!("../../shaders/milky_way.wgsl")]),
@@ -44,7 +45,19 @@ pub const SHADERS: [(&str, &[&str]); 15] = [
             LIGHT_TABLE,
             RETINA,
             DISPLAY,
+            CODES,
             include_str!("../../shaders/points.wgsl"),
+        ],
+    ),
+    (
+        "flare",
+        &[
+            QUANTITIES,
+            LIGHT_TABLE,
+            RETINA,
+            DISPLAY,
+            CODES,
+            include_str!("../../shaders/flare.wgsl"),
         ],
     ),
     ("point-light", &[QUANTITIES, include_str!("../../shaders/point_light.wgsl")]),

@@ -202,10 +202,27 @@ pub struct GrainUniform {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct HaloUniform {
-    pub core: f32,
     pub rows_per_octave: f32,
     pub first_log2_px: f32,
     pub rows: f32,
+    pub pad: f32,
+}
+
+/// `Flare` of `shaders/flare.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct FlareUniform {
+    pub radius_px: f32,
+    pub pad: [f32; 7],
+}
+
+/// A point with a flare for `shaders/flare.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct FlareInstance {
+    pub centre_px: [f32; 2],
+    pub radius_px: f32,
+    pub illuminance: [f32; 4],
 }
 
 /// `Level` of `shaders/point_light.wgsl`.
@@ -224,6 +241,7 @@ pub struct PointInstance {
     pub centre_px: [f32; 2],
     pub colour: [f32; 3],
     pub illuminance: f32,
+    pub parts: [f32; 2],
 }
 
 /// `Disc` of `shaders/discs.wgsl`.
