@@ -21,6 +21,9 @@ use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
 /// remains of a point on the retina (CIE 135/1's second bell).
 const POINT_SR: f64 = 7.6e-7;
 
+/// What an eye spreads no farther than this is no glare but the fineness of its image.
+const NEAR: Angle = Angle::from_arcmin(8.0);
+
 /// No point fainter than this has a flare by the widest pupil, lux: a star of magnitude 0.
 const FAINTEST_FLARE_LX: f64 = 2.5e-6;
 
@@ -215,6 +218,17 @@ impl Eye {
             [shown, faintest_lx * self.field_factor, 0.0, 0.0].map(|value| value as f32)
         };
         self.mixed().iter().map(visible).collect()
+    }
+}
+
+/// Leaves what is spread no farther than [`NEAR`] where it is: the viewer's own eye does that to the picture.
+fn stay_if_near(shares: &mut [f64], pixel: Angle) {
+    for (level, share) in (1..).zip(shares) {
+        // Standard deviation of a level's kernel, as in the pyramid.
+        let sigma_px = (4f64.powi(level) / 2.0 - 1.0).sqrt();
+        if sigma_px * pixel.rad() < NEAR.rad() {
+            *share = 0.0;
+        }
     }
 }
 
