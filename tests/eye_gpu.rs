@@ -452,7 +452,7 @@ fn a_dark_gradient_has_no_bands(renderer: &Renderer) -> Result<(), Failed> {
             }
             // Stretches over which the gradient rises by half a code.
             let mut first = 0;
-            let mut last_mean = None;
+            let mut last_mean: Option<[f64; 2]> = None;
             for x in 1..width {
                 if code(x, channel) - code(first, channel) >= 0.5 {
                     let [shown, meant] = [true, false].map(|shown| mean(first, x, shown));

@@ -242,7 +242,7 @@ fn stars_drown_near_the_moon(renderer: &Renderer) -> Result<(), Failed> {
             return Err("nothing is seen".into());
         };
         let spread = eye.glare.spread(&eye.optics, seeing.pupil_mm).ok_or("no glare")?;
-        let veil = MOON_LX * spread.at_deg(away_deg);
+        let veil = MOON_LX * spread.per_sr(Angle::from_deg(away_deg));
         let background = luminance_for_rods(sky_y + veil, 1.38 * sky_y + 2.0 * veil);
         let meant = limiting_magnitude(background, eye.field_factor);
         // Where the picture's own angles hold: on circles around the Moon.
