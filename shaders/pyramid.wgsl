@@ -42,17 +42,18 @@ fn upward(@builtin(vertex_index) index: u32) -> Corner {
     return Corner(full_screen_corner(index), shares, step.within_x, step.within_y);
 }
 
-// Brighter than anything in the sky, cd/m2.
-const BRIGHTEST: f32 = 1e12;
+// Brighter than any light that there is, cd/m2.
+const ENDLESS: f32 = 1e15;
 
 // Two by two pixels; at an odd end a texel has half of its light, as it has half of its place.
 @fragment
 fn first(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
     let size = vec2f(textureDimensions(picture));
     let mean = textureSampleLevel(picture, between, min(2.0 * pixel.xy, size - 0.5) / size, 0.0);
-    let part = select(vec2f(1.0), vec2f(0.5), 2.0 * pixel.xy >= size + 0.5);
-    // What is no number is dark here, and what is beyond all light is held: neither spreads.
-    return part.x * part.y * select(vec4f(0.0), min(mean, vec4f(BRIGHTEST)), mean > vec4f(0.0));
+    let part = select(vec2f(1.0), vec2f(0.5), 2.0 * pixel.xy > size - 0.5);
+    // What is no number or endless is dark here, so that it does not spread.
+    let is_light = (mean > vec4f(0.0)) & (mean < vec4f(ENDLESS));
+    return part.x * part.y * select(vec4f(0.0), mean, is_light);
 }
 
 // Weights 1 3 3 1 on each axis, 1 3 at an odd end; beyond the other ends the picture is mirrored.

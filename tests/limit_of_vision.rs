@@ -133,8 +133,14 @@ impl Shown {
                 [0, 1].map(|n: usize| self.codes[n].at((x + dx) as u32, (y + dy) as u32)[1]);
             i32::from(with) - i32::from(without)
         };
-        let around = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (dx, dy)));
-        around.map(brighter).max() >= Some(2)
+        let around = |reach: i32| {
+            (-reach..=reach).flat_map(move |dy| (-reach..=reach).map(move |dx| (dx, dy)))
+        };
+        // Many stars together change the curve, and so all of the sky a little.
+        let ring = around(6).filter(|(dx, dy)| dx.abs().max(dy.abs()) > 4).map(brighter);
+        let beside = f64::from(ring.clone().sum::<i32>()) / ring.count() as f64;
+        let most = around(2).map(brighter).max().unwrap_or_default();
+        f64::from(most) > beside + 1.5
     }
 
     /// The faintest star that is shown and the faintest that is there, as magnitudes, from stars in steps;
@@ -249,7 +255,7 @@ fn stars_drown_near_the_moon(renderer: &Renderer) -> Result<(), Failed> {
         let first = ((meant - 1.55) * 20.0).round() / 20.0;
         let stars: Vec<Star> = (0..31)
             .map(|n| {
-                let turn = Angle::from_deg(-60.0 + 4.0 * f64::from(n * 11 % 31));
+                let turn = Angle::from_deg(-45.0 + 3.0 * f64::from(n * 11 % 31));
                 let reach = away_deg / pixel_deg;
                 let at = [centre[0] + reach * turn.cos(), centre[1] + reach * turn.sin()];
                 (at, first + 0.1 * f64::from(n))
