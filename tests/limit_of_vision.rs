@@ -155,6 +155,11 @@ impl Shown {
             (ordered[0].1 + step * (count as f64 - 0.5), count - first)
         };
         let (shown, strays) = limit(&|px| self.contrast(px, field_factor) > 1.0);
+        if std::env::var("DBG").is_ok() {
+            let not: Vec<f64> =
+                ordered.iter().filter(|s| !self.is_there(s.0)).map(|s| s.1).collect();
+            println!("not there {not:.1?}");
+        }
         ([shown, limit(&|px| self.is_there(px)).0], strays)
     }
 }
@@ -240,8 +245,6 @@ fn stars_drown_near_the_moon(renderer: &Renderer) -> Result<(), Failed> {
     let eye = Eye::default();
     let mut wrong = Vec::new();
     for away_deg in [3.0, 10.0, 30.0] {
-        let (shown, _) = Shown::of(renderer, &Sky::Frame(&frame, camera), &[], &eye)?;
-        drop(shown);
         let look =
             Look { viewer: Viewer::Eye(&eye), display: &Display::default(), depth: Depth::Codes };
         let Made::Seen(seeing) = renderer.look_at(&frame, &camera, &[], &look)?.made else {
@@ -255,7 +258,8 @@ fn stars_drown_near_the_moon(renderer: &Renderer) -> Result<(), Failed> {
         let first = ((meant - 1.55) * 20.0).round() / 20.0;
         let stars: Vec<Star> = (0..31)
             .map(|n| {
-                let turn = Angle::from_deg(-45.0 + 3.0 * f64::from(n * 11 % 31));
+                let step_deg = if away_deg > 20.0 { 3.0 } else { 6.0 };
+                let turn = Angle::from_deg(step_deg * f64::from(n * 11 % 31 - 15));
                 let reach = away_deg / pixel_deg;
                 let at = [centre[0] + reach * turn.cos(), centre[1] + reach * turn.sin()];
                 (at, first + 0.1 * f64::from(n))
