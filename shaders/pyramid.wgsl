@@ -42,13 +42,18 @@ fn upward(@builtin(vertex_index) index: u32) -> Corner {
     return Corner(full_screen_corner(index), shares, step.within_x, step.within_y);
 }
 
+// Brighter than any light that there is, cd/m2.
+const ENDLESS: f32 = 1e15;
+
 // Two by two pixels; at an odd end a texel has half of its light, as it has half of its place.
 @fragment
 fn first(@builtin(position) pixel: vec4f) -> @location(0) LuminanceXyzv {
     let size = vec2f(textureDimensions(picture));
     let mean = textureSampleLevel(picture, between, min(2.0 * pixel.xy, size - 0.5) / size, 0.0);
-    let part = select(vec2f(1.0), vec2f(0.5), 2.0 * pixel.xy >= size + 0.5);
-    return part.x * part.y * mean;
+    let part = select(vec2f(1.0), vec2f(0.5), 2.0 * pixel.xy > size - 0.5);
+    // What is no number or endless is dark here, so that it does not spread.
+    let is_light = (mean > vec4f(0.0)) & (mean < vec4f(ENDLESS));
+    return part.x * part.y * select(vec4f(0.0), mean, is_light);
 }
 
 // Weights 1 3 3 1 on each axis, 1 3 at an odd end; beyond the other ends the picture is mirrored.
@@ -162,4 +167,14 @@ fn seen_blurred(corner: TileCorner) -> @location(0) vec4f {
     let up = stepped_up(Corner(corner.position, corner.shares, corner.within_x, corner.within_y));
     let seen = seen_of(shown, between, corner.shares.w * up.blurred + up.spread);
     return vec4f(sent_of(corner.red, corner.green, corner.blue, seen.xyz), seen.w);
+}
+
+// Given a pixel of the frame and a level finished by `spread`, the light on the retina: what measurements use.
+// The step has the share in place, and in `level` what a pixel is on that level.
+@fragment
+fn retina(corner: Corner) -> @location(0) LuminanceXyzv {
+    let pixel = corner.position.xy;
+    let here = textureSampleLevel(picture, nearest, pixel / vec2f(textureDimensions(picture)), 0.0);
+    let place = corner.shares.z * pixel / vec2f(textureDimensions(coarser));
+    return corner.shares.w * here + corner.shares.y * textureSampleLevel(coarser, between, place, 0.0);
 }

@@ -201,7 +201,8 @@ pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     let low = rgb.min_element().min(0.0);
     // A luminance of zero leaves nothing to mix with.
     let keep = if grey > low { grey / (grey - low) } else { 0.0 };
-    let positive = DVec3::splat(grey) + (rgb - grey) * keep;
+    // Rounding leaves the one that should be zero a little below.
+    let positive = (DVec3::splat(grey) + (rgb - grey) * keep).max(DVec3::ZERO);
     let high = positive.max_element();
     if high <= 1.0 {
         return positive;

@@ -5,6 +5,7 @@
 use tiny_skia::{LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::camera::Camera;
+use crate::display::Display;
 use crate::frame::{Apparent, Dir, WINDS};
 use crate::image::{Codes, Image};
 use crate::scene::Marks;
@@ -13,14 +14,24 @@ use crate::units::Angle;
 /// Colour of the marks, sRGB: the dim red that eyes in the dark tolerate best.
 const COLOUR: [u8; 3] = [168, 72, 48];
 
-/// Draws marks on a picture taken by `camera`, given the apparent altitude of the horizon.
-pub fn draw(wanted: Marks, picture: &mut Codes, camera: &Camera, horizon: Angle) {
+/// Draws marks on a picture taken by `camera`, given the apparent altitude of the horizon; on a screen
+/// whose light is all red they are red too.
+pub fn draw(
+    wanted: Marks,
+    picture: &mut Codes,
+    camera: &Camera,
+    horizon: Angle,
+    display: &Display,
+) {
+    let red = display.red;
     match picture {
-        Codes::Eight(picture) => draw_on(wanted, picture, camera, horizon, |code, over, under| {
-            (over + u32::from(code) * under / 255).min(255) as u8
-        }),
+        Codes::Eight(picture) => {
+            draw_on(wanted, picture, camera, horizon, red, |code, over, under| {
+                (over + u32::from(code) * under / 255).min(255) as u8
+            })
+        }
         Codes::Sixteen(picture) => {
-            draw_on(wanted, picture, camera, horizon, |code, over, under| {
+            draw_on(wanted, picture, camera, horizon, red, |code, over, under| {
                 (over * 257 + u32::from(code) * under / 255).min(65_535) as u16
             })
         }
@@ -33,6 +44,7 @@ fn draw_on<C: Copy>(
     picture: &mut Image<[C; 3]>,
     camera: &Camera,
     horizon: Angle,
+    is_red: bool,
     laid: impl Fn(C, u32, u32) -> C,
 ) {
     let (width, height) = (picture.width_px(), picture.height_px());
@@ -47,7 +59,10 @@ fn draw_on<C: Copy>(
     for (pixel, mark) in picture.pixels_mut().iter_mut().zip(marks.pixels()) {
         // The marks are premultiplied with their own coverage.
         let under = 255 - u32::from(mark.alpha());
-        let over = [mark.red(), mark.green(), mark.blue()];
+        let over = match is_red {
+            true => [mark.red(), 0, 0],
+            false => [mark.red(), mark.green(), mark.blue()],
+        };
         for (channel, over) in pixel.iter_mut().zip(over) {
             *channel = laid(*channel, u32::from(over), under);
         }

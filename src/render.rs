@@ -175,6 +175,19 @@ impl Renderer {
         self.developed(frame, camera, points, look, false)
     }
 
+    /// The light of a frame without points of light as it falls on the retina of an eye, cd/m2: for
+    /// measurements of its glare, which pictures leave out where nobody would see it.
+    pub fn retina(
+        &self,
+        frame: &HdrFrame,
+        camera: &Camera,
+        eye: &Eye,
+    ) -> Result<HdrFrame, GpuError> {
+        let mut target = Target::of_frame(&self.gpu, camera, frame)?;
+        let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
+        pass.retina(&mut target, eye, camera)
+    }
+
     fn developed(
         &self,
         mut frame: Target,

@@ -14,6 +14,7 @@ mod cli {
     pub mod pictures;
     pub mod readme;
     pub mod scenes;
+    pub mod viewers;
     pub mod words;
 }
 
@@ -33,6 +34,7 @@ fn main() {
         cli::catalogs::trials(&machine),
         cli::scenes::trials(),
         cli::words::trials(),
+        cli::viewers::trials(&machine),
         cli::pictures::trials(&machine),
         cli::readme::trials(&machine),
     ];

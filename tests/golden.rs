@@ -61,7 +61,7 @@ fn write(renderer: &Renderer, scene: &Scene, path: &Path) -> Result<(), Failed> 
     let frame = looked.frame.ok_or("no frame came with the picture")?;
     exr::write(OutputFile::create(&path.with_extension("exr"))?, &frame, &[])?;
     let mut codes = looked.picture.into_codes(&scene.display);
-    overlay::draw(scene.marks, &mut codes, &setting.camera, night.horizon);
+    overlay::draw(scene.marks, &mut codes, &setting.camera, night.horizon, &scene.display);
     let file = OutputFile::create(&path.with_extension("png"))?;
     Ok(png::write_with(file, &codes, scene.display.space, None)?)
 }

@@ -128,8 +128,9 @@ fn the_screen_is_its_twin(renderer: &Renderer) -> Result<(), Failed> {
                 }
             }
             check(worst < 2e-4, || format!("{space:?}, red {red}: off by {worst}"))?;
-            // Where a code lies on the edge between two.
-            check(differ < 3 * 128 * 128 / 50, || {
+            // Where a code lies on the edge between two: the curve in 32 bits is off by up to 1.5e-4, 4 % of a
+            // code.
+            check(differ < 3 * 128 * 128 / 25, || {
                 format!("{space:?}, red {red}: {differ} differ")
             })?;
         }

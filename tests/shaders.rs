@@ -8,8 +8,9 @@ use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, MeshBandUniform,
-    PhotoUniform, PlanetUniform, RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, GrainUniform,
+    HaloUniform, LevelUniform, MeshBandUniform, PhotoUniform, PlanetUniform, PyramidStepUniform,
+    RetinaUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -62,7 +63,34 @@ fn uniforms_have_one_layout_on_both_sides() {
         SkyUniform,
         [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
     );
-    let library = parsed("library", &LIBRARY.join("\n"));
+
+    let pyramid = parsed("pyramid", &assembled("pyramid"));
+    let step = layout(&pyramid, "Step");
+    let rust = |name: &str, at: usize| (name.to_owned(), at);
+    let of_step = [
+        rust("share", offset_of!(PyramidStepUniform, share)),
+        rust("coarser", offset_of!(PyramidStepUniform, coarser)),
+        rust("level", offset_of!(PyramidStepUniform, level)),
+        rust("in_place", offset_of!(PyramidStepUniform, in_place)),
+        rust("within_x", offset_of!(PyramidStepUniform, within)),
+        rust("within_y", offset_of!(PyramidStepUniform, within) + size_of::<[f32; 4]>()),
+    ];
+    assert_eq!(step, (of_step.to_vec(), size_of::<PyramidStepUniform>()));
+    let eye = parsed("eye", &assembled("eye"));
+    same_layout!(
+        eye,
+        "Retina",
+        RetinaUniform,
+        [in_place, spread, size_px, soft_scale, around_scale]
+    );
+    same_layout!(eye, "Grain", GrainUniform, [place, size_px, strength]);
+    let (rows, size) = layout(&eye, "DisplayRows");
+    let named = ["red", "green", "blue"].map(str::to_owned).into_iter().zip([0, 16, 32]);
+    assert_eq!((rows, size), (named.collect(), size_of::<DisplayUniform>()));
+    let points = parsed("points", &assembled("points"));
+    same_layout!(points, "Halo", HaloUniform, [core, rows_per_octave, first_log2_px, rows]);
+    let lights = parsed("point-light", &assembled("point-light"));
+    same_layout!(lights, "Level", LevelUniform, [size, scale, per_lux]);
 
     let photo = parsed("photo", &assembled("photo"));
     let (members, size) = layout(&photo, "Setting");

@@ -73,7 +73,13 @@ pub fn draw(
             let looked = progress.step("drawing", || renderer.look(&plan, &look, wanted.frame))?;
             let codes = progress.step("seeing", || {
                 let mut codes = looked.picture.into_codes(&scene.display);
-                overlay::draw(scene.marks, &mut codes, &setting.camera, night.horizon);
+                overlay::draw(
+                    scene.marks,
+                    &mut codes,
+                    &setting.camera,
+                    night.horizon,
+                    &scene.display,
+                );
                 codes
             });
             (picture.frame, picture.codes) = (looked.frame, Some(codes));

@@ -20,6 +20,9 @@ use super::{Eye, Model, acuity, light_table, paper, pupil, rods};
 /// Solid angle over which the eye sees the colour of a point: some three minutes of arc across, what
 /// remains of a point on the retina (CIE 135/1's second bell).
 const POINT_SR: f64 = 7.6e-7;
+/// Light of a point on the screen that is no farther from it than this is seen as one, pixels; as much as
+/// 7 by 7 pixels.
+const POINT_PX: f64 = 4.0;
 
 /// What an eye spreads no farther than this is no glare but the fineness of its image.
 const NEAR: Angle = Angle::from_arcmin(8.0);
@@ -131,6 +134,10 @@ impl Eye {
             }
             _ => DMat3::IDENTITY,
         };
+        // What is scattered farther is no part of the point for who looks at the screen.
+        let in_place = halo.as_ref().map_or(1.0, |halo| halo.within_px(POINT_PX));
+        let threshold_factor = adaptation.threshold_factor();
+        let visible = self.visible(&curve, display, threshold_factor, in_place);
         Seeing {
             rgb_from_seen: display.rgb_from_xyz() * adapted_from_seen,
             adaptation_cd_m2,
@@ -142,7 +149,7 @@ impl Eye {
             pixel: view.pixel,
             levels_resolved: self.acuity.then(|| levels_resolved(view)),
             shown: self.shown(&curve),
-            visible: self.visible(&curve, display, adaptation.threshold_factor()),
+            visible,
             sees_points: !self.wants_points_in_frame(),
             magnification: view.magnification,
             night: self.night_colour,
@@ -207,6 +214,7 @@ impl Eye {
         curve: &ToneCurve,
         display: &Display,
         threshold_factor: f64,
+        in_place: f64,
     ) -> Vec<[f32; 4]> {
         let screen_pixel_sr = Angle::from_arcmin(display.pixel_arcmin).rad().powi(2);
         let visible = |mixed: &Mixed| {
@@ -214,7 +222,7 @@ impl Eye {
             let faintest_lx = threshold_factor * mixed.faintest_lx;
             let on_screen_lx = threshold_lx(share * display.peak_cd_m2 + display.surround_cd_m2);
             let shown = self.exposure_stops.exp2() * on_screen_lx
-                / (faintest_lx * screen_pixel_sr * display.peak_cd_m2);
+                / (faintest_lx * screen_pixel_sr * display.peak_cd_m2 * in_place);
             [shown, faintest_lx * self.field_factor, 0.0, 0.0].map(|value| value as f32)
         };
         self.mixed().iter().map(visible).collect()

@@ -42,7 +42,7 @@ impl Eye {
         let seeing = self.seeing(&pyramid::gathered(frame, view.foveal_level()), &view, display);
         let retina = match seeing.glare_shares.is_empty() {
             true => frame.clone(),
-            false => pyramid::scattered_by(frame, &seeing.glare_shares),
+            false => pyramid::scattered_by(frame, &spread_by_pictures(&seeing.glare_shares)),
         };
         let rgb_from_seen = seeing.rgb_from_seen;
         let shown = |light: &[f32; 4]| {
@@ -56,4 +56,13 @@ impl Eye {
         let light = Image::from_pixels(frame.width_px(), frame.height_px(), pixels);
         Seen { light: light.expect("as many pixels"), seeing }
     }
+}
+
+/// What the first level would spread stays in its place, where there is a second one: it is not worth a pass.
+fn spread_by_pictures(shares: &[f64]) -> Vec<f64> {
+    let mut shares = shares.to_vec();
+    if shares.len() > 1 {
+        shares[0] = 0.0;
+    }
+    shares
 }

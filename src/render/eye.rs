@@ -12,6 +12,7 @@ use crate::eye::foveal::View;
 use crate::eye::glare::{Flare, Halo, flare, point};
 use crate::eye::light_table;
 use crate::eye::seeing::{Seeing, SeenPoint};
+use crate::image::HdrFrame;
 use crate::plan::Splat;
 use crate::units::Angle;
 
@@ -218,6 +219,27 @@ impl EyePass {
             pass.set_vertex_buffer(0, instances.slice(..));
             pass.draw(0..4, 0..scene.points.len() as u32);
         });
+    }
+
+    /// What the retina gets of a frame without points, with the glare of all of it: for measurements.
+    pub fn retina(
+        &self,
+        frame: &mut Target,
+        eye: &Eye,
+        camera: &Camera,
+    ) -> Result<HdrFrame, GpuError> {
+        let size_px = [camera.width_px, camera.height_px];
+        let pyramid = Pyramid::new(frame.gpu, size_px);
+        let view = View::new(size_px, camera.pixel_angle());
+        self.pyramid.down(frame, &pyramid, 1..=pyramid.len());
+        let gathered = pyramid.read(frame, view.foveal_level())?;
+        let shares = eye.seeing(&gathered, &view, &Display::default()).glare_shares;
+        let around = FINISHED_LEVELS.min(pyramid.len());
+        let levels_resolved = row_texture(frame.gpu, &[0.0]);
+        let up = Up { shares: &shares, levels_resolved: &levels_resolved, blurs: false };
+        self.pyramid.up(frame, &pyramid, &up, (around..=pyramid.len()).rev());
+        let in_place = 1.0 - shares.iter().skip(around - 1).sum::<f64>();
+        self.pyramid.retina(frame, &pyramid, around, in_place)
     }
 
     /// All pixels, each as far as it needs.

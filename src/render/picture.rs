@@ -103,7 +103,9 @@ impl PictureTarget {
             }
             Depth::Linear => {
                 let light = read_pixels(gpu, &self.texture, [0.0f32; 4])?;
-                Picture::Linear(light.map(|[red, green, blue, _]| [red, green, blue]))
+                // Points are added to what may be white already.
+                let share = |share: f32| share.max(0.0).min(1.0);
+                Picture::Linear(light.map(|[red, green, blue, _]| [red, green, blue].map(share)))
             }
         })
     }

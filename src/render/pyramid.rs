@@ -21,6 +21,7 @@ pub struct PyramidPass {
     spread_and_blurred: wgpu::RenderPipeline,
     /// For screens of all colours and of red alone, each of a picture that is not blurred and of one that is.
     seen: [[wgpu::RenderPipeline; 2]; 2],
+    retina: wgpu::RenderPipeline,
     pub between: wgpu::Sampler,
     pub nearest: wgpu::Sampler,
 }
@@ -178,6 +179,7 @@ impl PyramidPass {
             spread: pipeline("upward", "spread", &[FRAME_FORMAT]),
             spread_and_blurred: pipeline("upward", "spread_and_blurred", &[FRAME_FORMAT; 2]),
             seen: [seen(false), seen(true)],
+            retina: pipeline("upward", "retina", &[FRAME_FORMAT]),
             between: gpu.linear_sampler(wgpu::AddressMode::ClampToEdge),
             nearest: gpu.nearest_sampler(),
         }
@@ -245,6 +247,42 @@ impl PyramidPass {
             pass.draw(0..4, 0..tiles.len() as u32);
         });
         Some(picture)
+    }
+
+    /// The light on the retina, from the frame and from what a level spreads after [`PyramidPass::up`]:
+    /// what measurements use, the pictures put both together on the way.
+    pub fn retina(
+        &self,
+        frame: &mut Target,
+        pyramid: &Pyramid,
+        level: usize,
+        in_place: f64,
+    ) -> Result<HdrFrame, GpuError> {
+        let [width, height] = pyramid.size_px;
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+        let texture = frame.gpu.texture("retina", size, FRAME_FORMAT, usage);
+        let step = PyramidStepUniform {
+            share: 0.0,
+            coarser: 1.0,
+            level: 0.5f32.powi(level as i32),
+            in_place: in_place as f32,
+            within: [[1.0; 4]; 2],
+        };
+        let step = frame.gpu.buffer("step", bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM);
+        let layout = self.retina.get_bind_group_layout(0);
+        let here = frame.view();
+        let bound = [
+            (0, self.sampler()),
+            (1, wgpu::BindingResource::TextureView(&here)),
+            (2, wgpu::BindingResource::TextureView(pyramid.spread(level))),
+            (3, step.as_entire_binding()),
+            (7, wgpu::BindingResource::Sampler(&self.nearest)),
+        ];
+        let group = frame.gpu.bind_mixed(&layout, &bound);
+        frame.picture_pass("retina", &[&view(&texture)], |pass| fill(pass, &self.retina, &group));
+        frame.submit();
+        target::read_back(frame.gpu, &texture)
     }
 
     fn step_up(

@@ -108,6 +108,64 @@ const CAMERAS: &[Case] = &[
     ("magnitude_nan", &["--magnitude-limit", "NaN"], &["magnitude_limit is NaN", "-30 to 100"]),
 ];
 
+/// Eyes, cameras that record, and screens, in Flagstaff.
+const VIEWERS: &[Case] = &[
+    ("eye_unknown", &["--eye", "cat"], &["'cat'", "--eye <MODEL>", "standard, paper"]),
+    ("adapted_nan", &["--adapted-to", "NaN"], &["eye.adaptation_cd_m2 is NaN", "to 1"]),
+    ("adapted_negative", &["--adapted-to", "-1"], &["eye.adaptation_cd_m2 is -1", "choose"]),
+    ("adapted_to_nothing", &["--adapted-to", "0"], &["eye.adaptation_cd_m2 is 0", "choose"]),
+    ("coming_from_alone", &["--coming-from", "100"], &["--after", "--help"]),
+    ("after_alone", &["--after", "10"], &["--coming-from", "--help"]),
+    (
+        "coming_from_negative",
+        &["--coming-from", "-1", "--after", "3"],
+        &["eye.coming_from_cd_m2 is -1", "choose"],
+    ),
+    ("after_negative", &["--coming-from", "9", "--after", "-3"], &["eye.since_s is -180", "0 to"]),
+    ("after_nan", &["--coming-from", "9", "--after", "NaN"], &["eye.since_s is NaN", "0 to"]),
+    ("field_factor_0", &["--field-factor", "0"], &["eye.field_factor is 0", "1 to 10"]),
+    ("age_nan", &["--age", "NaN"], &["eye.optics.age_years is NaN", "0 to 100"]),
+    ("age_200", &["--age", "200"], &["eye.optics.age_years is 200", "0 to 100"]),
+    ("glare_unknown", &["--glare", "much"], &["'much'", "cie, spencer, none"]),
+    ("night_colour_unknown", &["--night-colour", "green"], &["'green'", "jensen, intrusion, day"]),
+    ("grain_in_words", &["--grain", "coarse"], &["'coarse'", "--grain <SEED>"]),
+    ("peak_0", &["--display-peak", "0"], &["display.peak_cd_m2 is 0", "1 to 10000"]),
+    ("peak_nan", &["--display-peak", "NaN"], &["display.peak_cd_m2 is NaN", "1 to 10000"]),
+    ("peak_negative", &["--display-peak", "-100"], &["display.peak_cd_m2 is -100", "1 to 10000"]),
+    ("display_unknown", &["--display", "crt"], &["'crt'", "srgb, p3, linear"]),
+    ("bits_12", &["--bits", "12"], &["--bits 12", "8 or 16"]),
+    ("bits_nothing", &["--bits", ""], &["--bits", "8 or 16"]),
+    ("iso_without_camera", &["--iso", "800"], &["--iso is for", "add --camera"]),
+    ("focal_without_camera", &["--focal", "50"], &["--focal is for", "add --camera"]),
+    ("no_noise_without_camera", &["--no-noise"], &["--no-noise is for", "add --camera"]),
+    ("sensor_unknown", &["--camera", "--sensor", "huge"], &["'huge'", "full-frame", "aps-c"]),
+    ("iso_in_words", &["--camera", "--iso", "fast"], &["--iso fast", "3200 or auto"]),
+    ("iso_nan", &["--camera", "--iso", "NaN"], &["photo.iso is NaN", "choose"]),
+    ("iso_1", &["--camera", "--iso", "1"], &["1", "100"]),
+    ("shutter_0", &["--camera", "--shutter", "0"], &["photo.shutter_s is 0", "choose"]),
+    ("shutter_by_0", &["--camera", "--shutter", "1/0"], &["photo.shutter_s is inf", "choose"]),
+    ("shutter_in_words", &["--camera", "--shutter", "bulb"], &["--shutter bulb", "1/60 or auto"]),
+    ("aperture_negative", &["--camera", "--aperture", "-2"], &["-2", "choose"]),
+    ("focal_nan", &["--camera", "--focal", "NaN"], &["NaN", "choose"]),
+    (
+        "focal_and_field",
+        &["--camera", "--focal", "50", "--fov", "40"],
+        &["--focal and --fov", "give one of them"],
+    ),
+    (
+        "white_in_words",
+        &["--camera", "--white-balance", "warm"],
+        &["--white-balance warm", "daylight, tungsten, auto"],
+    ),
+    ("white_nan", &["--camera", "--white-balance", "NaN"], &["white_balance is NaN", "choose"]),
+    ("vignetting_some", &["--camera", "--vignetting", "some"], &["'some'", "on, off"]),
+    (
+        "seed_of_no_noise",
+        &["--camera", "--no-noise", "--noise-seed", "3"],
+        &["--no-noise", "--noise-seed"],
+    ),
+];
+
 /// Airs, in Flagstaff.
 const AIRS: &[Case] = &[
     ("misspelt", &["--atmosphere", "maritme"], &["'maritme'", "did you mean maritime", ".toml"]),
@@ -145,6 +203,10 @@ pub fn trials() -> Vec<Trial> {
         let arguments = [&["render"], *value, HERE, FILES].concat();
         case(format!("nonsense::camera::{name}"), arguments, said)
     };
+    let viewer = |(name, value, said): &Case| {
+        let arguments = [&["render"], *value, HERE, FILES].concat();
+        case(format!("nonsense::viewer::{name}"), arguments, said)
+    };
     let air = |(name, value, said): &Case| {
         let arguments = [&["render"], *value, HERE, FILES].concat();
         case(format!("nonsense::air::{name}"), arguments, said)
@@ -160,6 +222,7 @@ pub fn trials() -> Vec<Trial> {
     let tables = DATES.iter().map(at).chain(PLACES.iter().map(place));
     tables
         .chain(CAMERAS.iter().map(camera))
+        .chain(VIEWERS.iter().map(viewer))
         .chain(AIRS.iter().map(air))
         .chain(LINES.iter().map(line))
         .chain([skipped])

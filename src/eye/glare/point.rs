@@ -118,7 +118,7 @@ impl Halo {
             near: 0.0,
             wide: wide_shares().map(|(_, share)| share).sum(),
         };
-        halo.near = halo.integral();
+        halo.near = halo.integral(usize::MAX);
         // A halo larger than all the light there is would take more than the star gives.
         let room = (1.0 - halo.wide - spread.halo()).max(0.0);
         if halo.near > room {
@@ -152,15 +152,21 @@ impl Halo {
         &self.table
     }
 
-    /// Integral of [`Halo::per_px`] over the plane: Simpson's rule between any two rows.
-    fn integral(&self) -> f64 {
+    /// The share of the light that is drawn within so many pixels of the point: core and halo.
+    pub fn within_px(&self, reach_px: f64) -> f64 {
+        let rows = ((reach_px / FIRST_PX).log2() * PER_OCTAVE as f64).round().max(0.0) as usize;
+        self.parts(None).core + self.integral(rows)
+    }
+
+    /// Integral of [`Halo::per_px`] over so many rows of the table: Simpson's rule between any two.
+    fn integral(&self, rows: usize) -> f64 {
         let disc = PI * FIRST_PX.powi(2) * self.per_px(0.0);
         let ring = |u: f64| {
             let r_px = FIRST_PX * (u / PER_OCTAVE as f64).exp2();
             2.0 * PI * r_px * r_px * self.per_px(r_px)
         };
         let step = std::f64::consts::LN_2 / PER_OCTAVE as f64;
-        let rings: f64 = (0..self.table.len() - 1)
+        let rings: f64 = (0..rows.min(self.table.len() - 1))
             .map(|n| n as f64)
             .map(|u| (ring(u) + 4.0 * ring(u + 0.5) + ring(u + 1.0)) / 6.0)
             .sum();
