@@ -110,9 +110,10 @@ impl Eye {
         };
         let spread = glare.spread(&self.optics, pupil_mm);
         let [width_px, height_px] = view.size_px;
-        let glare_shares = spread
+        let mut glare_shares = spread
             .as_ref()
             .map_or(Vec::new(), |spread| shares(spread, view.pixel, width_px, height_px));
+        stay_if_near(&mut glare_shares, view.pixel);
         let halo = spread
             .as_ref()
             .map(|spread| Halo::new(spread, &glare_shares, view.pixel, width_px, height_px));
