@@ -9,6 +9,7 @@
 //! and discs stand as they are in the middle of that time, when the eyes look.
 
 use std::error::Error;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use nocturne::catalog::Catalogs;
@@ -43,10 +44,10 @@ struct Studio {
 }
 
 fn main() -> Outcome<()> {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args_os().skip(1);
     let folder =
         arguments.next().map_or_else(|| PathBuf::from("docs/eye_and_camera"), PathBuf::from);
-    let wanted: Vec<String> = arguments.collect();
+    let wanted: Vec<OsString> = arguments.collect();
     let studio = Studio { catalogs: Catalogs::locate(None)?, renderer: Renderer::new()? };
     for path in scenes(&folder, &wanted)? {
         let scene = Scene::parse(&std::fs::read_to_string(&path)?)?;
@@ -59,13 +60,13 @@ fn main() -> Outcome<()> {
 }
 
 /// The scene files of a folder, by name; those that are wanted, or all.
-fn scenes(folder: &Path, wanted: &[String]) -> Outcome<Vec<PathBuf>> {
+fn scenes(folder: &Path, wanted: &[OsString]) -> Outcome<Vec<PathBuf>> {
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
         let is_scene = path.extension().is_some_and(|extension| extension == "toml");
         let name = path.file_stem().unwrap_or_default();
-        if is_scene && (wanted.is_empty() || wanted.iter().any(|wanted| *wanted == *name)) {
+        if is_scene && (wanted.is_empty() || wanted.iter().any(|wanted| wanted == name)) {
             paths.push(path);
         }
     }
