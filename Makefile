@@ -42,6 +42,7 @@ pictures: driver
 	$(NOCTURNE) render --scene docs/first_light.toml -o docs/first_light.png
 	$(NOCTURNE) render --scene docs/winter_night.toml -o docs/winter_night.png
 	cargo run --release --example 6_twilight_sheets docs/twilight
+	cargo run --release --example 8_eye_and_camera docs/eye_and_camera
 	$(NOCTURNE) render --lat -24.627 --lon -70.404 --height 2635 --at 2026-07-12T04:30Z --look S --altitude 90 \
 		--fov 180 --projection equidistant --size 800x800 --exposure 1 -o docs/night/paranal.png
 	$(NOCTURNE) render --place Flagstaff --at "2026-10-12 05:00" --look 95 --altitude 25 --fov 100 --exposure 1 \

@@ -30,7 +30,8 @@
 //! ```
 //!
 //! What follows is for those who draw: [`plan::lay`] lays a night on the picture, `render` draws
-//! it into an [`image::HdrFrame`] in cd/m2, [`eye`] sees it, and [`export`] writes it down.
+//! it into an [`image::HdrFrame`] in cd/m2, an [`eye`] sees it or a camera records it ([`photo`]), a
+//! [`display`] shows it, and [`export`] writes it down.
 
 // What everything is said in.
 pub mod frame;
@@ -54,7 +55,7 @@ pub mod sky;
 // What happens there, and when.
 pub mod almanac;
 
-// What lies between, how bright things shine, and what an eye makes of it.
+// What lies between, how bright things shine, and what an eye or a camera makes of it for a screen.
 pub mod air;
 pub mod display;
 pub mod eye;

@@ -59,6 +59,9 @@ pub struct Seeing {
     pub rgb_from_seen: DMat3,
     /// Whether points of light are seen as points, or as part of the frame like everything else.
     pub sees_points: bool,
+    /// What makes the colour of rods the same after [`Seeing::rgb_from_seen`]: theirs is no light that one
+    /// could take for white.
+    seen_from_adapted: DMat3,
     magnification: f64,
     night: NightColour,
 }
@@ -139,7 +142,9 @@ impl Eye {
         let in_place = halo.as_ref().map_or(1.0, |halo| halo.within_px(POINT_PX));
         let threshold_factor = adaptation.threshold_factor();
         let visible = self.visible(&curve, display, threshold_factor, in_place);
+        let seen_from_adapted = adapted_from_seen.inverse();
         Seeing {
+            seen_from_adapted,
             rgb_from_seen: display.rgb_from_xyz() * adapted_from_seen,
             adaptation_cd_m2,
             pupil_mm,
@@ -149,7 +154,7 @@ impl Eye {
             spread,
             pixel: view.pixel,
             levels_resolved: self.acuity.then(|| levels_resolved(view)),
-            shown: self.shown(&curve),
+            shown: self.shown(&curve, seen_from_adapted),
             visible,
             sees_points: !self.wants_points_in_frame(),
             magnification: view.magnification,
@@ -169,13 +174,15 @@ impl Eye {
         }
     }
 
-    fn shown(&self, curve: &ToneCurve) -> Vec<[f32; 4]> {
+    fn shown(&self, curve: &ToneCurve, seen_from_adapted: DMat3) -> Vec<[f32; 4]> {
         let brighter = self.exposure_stops.exp2();
         let mixed = self.mixed().iter();
         mixed
             .map(|Mixed { parts, seen, .. }| {
                 let gain = if *seen > 0.0 { curve.shown(seen * brighter) / seen } else { 0.0 };
-                parts.map(|part| (part * gain) as f32)
+                let [cones, rods @ ..] = *parts;
+                let [x, y, z] = (seen_from_adapted * DVec3::from_array(rods)).to_array();
+                [cones, x, y, z].map(|part| (part * gain) as f32)
             })
             .collect()
     }
@@ -266,8 +273,9 @@ impl Seeing {
         // A telescope gathers as much more light as it magnifies, through the whole pupil.
         let lx = illuminance * self.magnification.powi(2);
         let [photopic, scotopic] = [lx.y, lx.v].map(|lx| lx / POINT_SR);
-        let seen = mix(self.night, photopic, scotopic).of([lx.x, lx.y, lx.z], lx.v);
-        let seen = DVec3::from_array(seen);
+        let mix = mix(self.night, photopic, scotopic);
+        let rods = self.seen_from_adapted * DVec3::from_array(mix.rods) * lx.v;
+        let seen = DVec3::new(lx.x, lx.y, lx.z) * mix.cones + rods;
         let colour = match seen.y > 0.0 {
             // In the gamut however faint it is shown.
             true => within_gamut(self.rgb_from_seen * (seen / seen.y * 1e-3), 1e-3) * 1e3,

@@ -35,8 +35,9 @@ use super::spread::Spread;
 
 /// Texels of the level that takes the wide part are about this large.
 const WIDE_TEXEL_ARCMIN: f64 = 30.0;
-/// The first level is too fine to take over from a sprite.
-const LEAST_LEVEL: f64 = 2.0;
+/// The first level is too fine to take over from a sprite, and the picture is finished at the first two:
+/// what points put into them would be seen in place.
+const LEAST_LEVEL: f64 = 3.0;
 /// The sprite ends so many of these texels from its star, and begins to fade at the other.
 const REACH_TEXELS: f64 = 1.3;
 const FADES_TEXELS: f64 = 0.7;
