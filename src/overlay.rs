@@ -201,7 +201,7 @@ mod tests {
             height_px: 360,
         };
         let mut codes = Codes::Eight(Image::filled(720, 360, [0; 3]));
-        draw(Marks::default(), &mut codes, &camera, Angle::ZERO);
+        draw(Marks::default(), &mut codes, &camera, Angle::ZERO, &Display::default());
         let Codes::Eight(picture) = codes else { panic!("other codes") };
         for x in 1..719 {
             assert!(picture.at(x, 179)[0] > 0 || picture.at(x, 180)[0] > 0, "gap at {x}");
