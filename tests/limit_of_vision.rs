@@ -352,7 +352,11 @@ fn cluster(centre: [f64; 2], faintest: f64) -> Vec<Star> {
     (0..49).map(star).collect()
 }
 
-/// Crumey's limit for the light that is there is met; Schaefer's is compared.
+/// Crumey's limit for the light that is there is met; Schaefer's is compared. The two models agree within
+/// 0.4 magnitudes for a field factor of 2 under skies of 19 to 22.5 magnitudes per square arcsecond and of 6 to
+/// 13.5; between, Schaefer's limit is brighter, by 0.9 at most, at 15.5: his thresholds of cones are poor where they
+/// take over, at 1500 nanolamberts. There his limit would be met with a field factor of 3. So late nautical
+/// twilight (the Sun at -11) is within 0.4 of both, its brighter part and the sky of the full Moon are 0.7 from his.
 fn twilight_and_moonlight(renderer: &Renderer) -> Result<(), Failed> {
     let scene = |utc: &str, latitude: f64, altitude: f64| {
         let text = SCENE
@@ -417,6 +421,19 @@ fn twilight_and_moonlight(renderer: &Renderer) -> Result<(), Failed> {
                 schaefer(sky.y),
                 schaefer(seen.y)
             );
+            // How far the models are apart: see above.
+            let apart = match (field_factor, name.as_str()) {
+                (_, "Sun at -11") => 0.4,
+                (2.0, _) => 0.8,
+                (2.4, _) => 0.6,
+                _ => f64::INFINITY,
+            };
+            if (limit - schaefer(seen.y)).abs() > apart {
+                wrong.push(format!(
+                    "{name}, F {field_factor}: {limit}, Schaefer {:.2}",
+                    schaefer(seen.y)
+                ));
+            }
             if (limit - crumey).abs() > 0.2 {
                 wrong.push(format!("{name}, F {field_factor}: {limit}, not {crumey}"));
             }

@@ -8,9 +8,9 @@ use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
-    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, GlobeUniform, GrainUniform,
-    HaloUniform, LevelUniform, MeshBandUniform, PhotoUniform, PlanetUniform, PyramidStepUniform,
-    RetinaUniform, RingUniform, SkyUniform,
+    CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, FlareUniform, GlobeUniform,
+    GrainUniform, HaloUniform, LevelUniform, MeshBandUniform, PhotoUniform, PlanetUniform,
+    PyramidStepUniform, RetinaUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -88,7 +88,10 @@ fn uniforms_have_one_layout_on_both_sides() {
     let named = ["red", "green", "blue"].map(str::to_owned).into_iter().zip([0, 16, 32]);
     assert_eq!((rows, size), (named.collect(), size_of::<DisplayUniform>()));
     let points = parsed("points", &assembled("points"));
-    same_layout!(points, "Halo", HaloUniform, [core, rows_per_octave, first_log2_px, rows]);
+    same_layout!(points, "Halo", HaloUniform, [rows_per_octave, first_log2_px, rows, pad]);
+    let flare = layout(&parsed("flare", &assembled("flare")), "Flare");
+    assert_eq!(flare.0[0], ("radius_px".to_owned(), offset_of!(FlareUniform, radius_px)));
+    assert_eq!(flare.1, size_of::<FlareUniform>());
     let lights = parsed("point-light", &assembled("point-light"));
     same_layout!(lights, "Level", LevelUniform, [size, scale, per_lux]);
 

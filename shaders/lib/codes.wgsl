@@ -6,10 +6,10 @@ fn code_sizes(linear: vec3f) -> vec3f {
         return vec3f(0.0);
     }
     if !IS_ENCODED {
-        return vec3f(1.0 / CODE_STEPS);
+        return vec3f(1.0 / max(CODE_STEPS, 1.0));
     }
     let curved = 2.2748815 * pow(linear, vec3f(0.58333333));
-    return select(curved, vec3f(1.0 / 12.92), linear <= vec3f(0.0031308)) / CODE_STEPS;
+    return select(curved, vec3f(1.0 / 12.92), linear <= vec3f(0.0031308)) / max(CODE_STEPS, 1.0);
 }
 
 // Given light to add and the size of a code, the light to send: the target rounds each sum to a code, so
