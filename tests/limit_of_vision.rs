@@ -155,11 +155,6 @@ impl Shown {
             (ordered[0].1 + step * (count as f64 - 0.5), count - first)
         };
         let (shown, strays) = limit(&|px| self.contrast(px, field_factor) > 1.0);
-        if std::env::var("DBG").is_ok() {
-            let not: Vec<f64> =
-                ordered.iter().filter(|s| !self.is_there(s.0)).map(|s| s.1).collect();
-            println!("not there {not:.1?}");
-        }
         ([shown, limit(&|px| self.is_there(px)).0], strays)
     }
 }
