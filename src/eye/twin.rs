@@ -42,7 +42,7 @@ impl Eye {
         let seeing = self.seeing(&pyramid::gathered(frame, view.foveal_level()), &view, display);
         let retina = match seeing.glare_shares.is_empty() {
             true => frame.clone(),
-            false => pyramid::scattered_by(frame, &spread_by_pictures(&seeing.glare_shares)),
+            false => pyramid::scattered_by(frame, &spread_by_pictures(&seeing.glare_shares, &view)),
         };
         let rgb_from_seen = seeing.rgb_from_seen;
         let shown = |light: &[f32; 4]| {
@@ -58,11 +58,9 @@ impl Eye {
     }
 }
 
-/// What the first level would spread stays in its place, where there is a second one: it is not worth a pass.
-fn spread_by_pictures(shares: &[f64]) -> Vec<f64> {
-    let mut shares = shares.to_vec();
-    if shares.len() > 1 {
-        shares[0] = 0.0;
-    }
-    shares
+/// The shares of the levels whose light pictures spread.
+fn spread_by_pictures(shares: &[f64], view: &View) -> Vec<f64> {
+    let [width_px, height_px] = view.size_px;
+    let finest = pyramid::finest_spread(width_px, height_px);
+    (1..).zip(shares).map(|(level, share)| if level < finest { 0.0 } else { *share }).collect()
 }

@@ -9,6 +9,7 @@ use crate::camera::Camera;
 use crate::display::Display;
 use crate::eye::Eye;
 use crate::eye::foveal::View;
+use crate::eye::glare::pyramid::finest_spread;
 use crate::eye::glare::{Flare, Halo, flare, point};
 use crate::eye::light_table;
 use crate::eye::seeing::{Seeing, SeenPoint};
@@ -16,7 +17,7 @@ use crate::image::HdrFrame;
 use crate::plan::Splat;
 use crate::units::Angle;
 
-use super::eye_tiles::{EyeTiles, FINISHED_LEVELS, Tile};
+use super::eye_tiles::{EyeTiles, Tile};
 use super::gpu::{FRAME_FORMAT, Gpu, GpuError, Stage};
 use super::picture::{Depth, PictureTarget};
 use super::pyramid::{Pyramid, PyramidPass, Screen, Up, tile_layout};
@@ -157,7 +158,7 @@ impl EyePass {
             depth: picture.depth(),
             has_grain: scene.eye.grain.is_some(),
         };
-        let around = FINISHED_LEVELS.min(pyramid.len());
+        let around = finest_spread(size_px[0], size_px[1]);
         let spread_from = |level: usize| match tiles.scatters {
             true => seeing.glare_shares.iter().skip(level - 1).sum::<f64>(),
             false => 0.0,
@@ -184,6 +185,8 @@ impl EyePass {
         if seeing.sees_points {
             self.points(frame, &work, around);
         }
+        // The textures are the next picture's as soon as this returns.
+        frame.submit();
         Ok(seeing)
     }
 
@@ -234,7 +237,7 @@ impl EyePass {
         self.pyramid.down(frame, &pyramid, 1..=pyramid.len());
         let gathered = pyramid.read(frame, view.foveal_level())?;
         let shares = eye.seeing(&gathered, &view, &Display::default()).glare_shares;
-        let around = FINISHED_LEVELS.min(pyramid.len());
+        let around = finest_spread(size_px[0], size_px[1]);
         let levels_resolved = row_texture(frame.gpu, &[0.0]);
         let up = Up { shares: &shares, levels_resolved: &levels_resolved, blurs: false };
         self.pyramid.up(frame, &pyramid, &up, (around..=pyramid.len()).rev());

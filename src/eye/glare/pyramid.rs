@@ -59,6 +59,13 @@ pub fn level_count(width_px: u32, height_px: u32) -> usize {
     levels
 }
 
+/// The finest level whose light a picture spreads: going up from the second level at once is cheaper, and
+/// keeps the light where that has no part of a texel outside. What finer levels would spread stays in place.
+pub fn finest_spread(width_px: u32, height_px: u32) -> usize {
+    let is_whole = width_px.is_multiple_of(4) && height_px.is_multiple_of(4);
+    if is_whole && level_count(width_px, height_px) > 1 { 2 } else { 1 }
+}
+
 /// Kernels of the first levels along an axis, at whole pixels from the centre; the others are
 /// splines.
 static KERNELS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| (1..=5).map(exact_kernel).collect());
