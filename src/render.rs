@@ -203,13 +203,13 @@ impl Renderer {
         let made = match look.viewer {
             Viewer::Eye(eye) => {
                 let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
-                if eye.wants_points_in_frame() {
-                    splats(&mut frame);
-                }
-                let scene = eye::Scene { eye, display: look.display, camera, points };
+                let (in_frame, apart): (Vec<Splat>, Vec<Splat>) =
+                    points.iter().partition(|point| eye.sees_in_frame(point.illuminance));
+                self.splats.draw(&mut frame, &in_frame, camera);
+                let scene = eye::Scene { eye, display: look.display, camera, points: &apart };
                 let seeing = pass.picture(&mut frame, &scene, &picture)?;
-                if wants_frame && !eye.wants_points_in_frame() {
-                    splats(&mut frame);
+                if wants_frame {
+                    self.splats.draw(&mut frame, &apart, camera);
                 }
                 Made::Seen(Box::new(seeing))
             }

@@ -27,6 +27,9 @@ const POINT_PX: f64 = 4.0;
 /// What an eye spreads no farther than this is no glare but the fineness of its image.
 const NEAR: Angle = Angle::from_arcmin(8.0);
 
+/// Brighter than any star or planet, lux: magnitude -6.5.
+const BODY_LX: f64 = 1e-3;
+
 /// No point fainter than this has a flare by the widest pupil, lux: a star of magnitude 0.
 const FAINTEST_FLARE_LX: f64 = 2.5e-6;
 
@@ -57,8 +60,6 @@ pub struct Seeing {
     pub visible: Vec<[f32; 4]>,
     /// Linear RGB of the screen of X, Y and Z as they are seen, the white of the scene for white.
     pub rgb_from_seen: DMat3,
-    /// Whether points of light are seen as points, or as part of the frame like everything else.
-    pub sees_points: bool,
     /// What makes the colour of rods the same after [`Seeing::rgb_from_seen`]: theirs is no light that one
     /// could take for white.
     seen_from_adapted: DMat3,
@@ -88,9 +89,10 @@ pub struct SeenPoint {
 }
 
 impl Eye {
-    /// Whether points of light belong into the frame that it looks at.
-    pub fn wants_points_in_frame(&self) -> bool {
-        self.model == Model::Paper
+    /// Whether a point of light of an illuminance in lux is seen as part of the frame like everything else: small
+    /// Suns and Moons, which are no stars, and by the paper's eye all.
+    pub fn sees_in_frame(&self, illuminance: Xyzv) -> bool {
+        self.model == Model::Paper || illuminance.y > BODY_LX
     }
 
     /// What it makes of a picture, given the light of its foveal level as the steps down leave it.
@@ -156,7 +158,6 @@ impl Eye {
             levels_resolved: self.acuity.then(|| levels_resolved(view)),
             shown: self.shown(&curve, seen_from_adapted),
             visible,
-            sees_points: !self.wants_points_in_frame(),
             magnification: view.magnification,
             night: self.night_colour,
         }

@@ -116,7 +116,7 @@ impl EyePass {
         }
     }
 
-    /// Makes the picture of a frame; the points are not in the frame unless the eye wants them there.
+    /// Makes the picture of a frame; the points apart are not in the frame.
     pub fn picture(
         &self,
         frame: &mut Target,
@@ -133,7 +133,7 @@ impl EyePass {
             _ => kept.insert(Pyramid::new(gpu, size_px)),
         };
         let view = View::new(size_px, camera.pixel_angle());
-        let with_points = match scene.eye.wants_points_in_frame() {
+        let with_points = match scene.points.is_empty() {
             true => None,
             false => Some(point::wide_level(view.pixel, pyramid.len())).filter(|level| *level > 0),
         };
@@ -182,9 +182,7 @@ impl EyePass {
             levels_resolved: row_texture(gpu, seeing.levels_resolved.as_deref().unwrap_or(&[0.0])),
         };
         self.pixels(frame, &work, &tiles, around);
-        if seeing.sees_points {
-            self.points(frame, &work, around);
-        }
+        self.points(frame, &work, around);
         // The textures are the next picture's as soon as this returns.
         frame.submit();
         Ok(seeing)
