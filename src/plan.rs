@@ -62,6 +62,15 @@ pub struct Splat {
     pub centre_px: [f64; 2],
     /// Illuminance at the ground, through the air, on a plane that faces it, lux.
     pub illuminance: Xyzv,
+    /// Whether it is the Sun or the Moon, or a part of them, which are no stars to any eye.
+    pub is_of_disc: bool,
+}
+
+impl Splat {
+    /// A star, or what looks like one.
+    pub fn star(centre_px: [f64; 2], illuminance: Xyzv) -> Splat {
+        Splat { centre_px, illuminance, is_of_disc: false }
+    }
 }
 
 /// The nodes of the tables of a [`SkyPlan`]: read with straight lines, see [`SkyView`].

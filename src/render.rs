@@ -204,7 +204,7 @@ impl Renderer {
             Viewer::Eye(eye) => {
                 let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
                 let (in_frame, apart): (Vec<Splat>, Vec<Splat>) =
-                    points.iter().partition(|point| eye.sees_in_frame(point.illuminance));
+                    points.iter().partition(|point| point.is_of_disc || eye.sees_stars_in_frame());
                 self.splats.draw(&mut frame, &in_frame, camera);
                 let scene = eye::Scene { eye, display: look.display, camera, points: &apart };
                 let seeing = pass.picture(&mut frame, &scene, &picture)?;

@@ -324,8 +324,7 @@ fn every_light_makes_a_picture(renderer: &Renderer) -> Result<(), Failed> {
         Viewer::Exposure(&exposure),
     ];
     let camera = camera(96, 40, 60.0);
-    let star =
-        Splat { centre_px: [40.0, 20.0], illuminance: Xyzv::new(2.5e-6, 2.5e-6, 2.5e-6, 4e-6) };
+    let star = Splat::star([40.0, 20.0], Xyzv::new(2.5e-6, 2.5e-6, 2.5e-6, 4e-6));
     for background in [0.0, 1e-42, 1e-30, 1e-6, 1.0, 1e10] {
         let even = frame_of(96, 40, |_, _| light(background, DAY));
         let mut all = vec![("even".to_owned(), even.clone())];
@@ -493,9 +492,9 @@ fn the_same_twice(renderer: &Renderer) -> Result<(), Failed> {
     let camera = camera(333, 97, 60.0);
     let frame = frame_of(333, 97, |x, y| light(1e-3 * (1.0 + x * y / 900.0), NIGHT));
     let points: Vec<Splat> = (0..200)
-        .map(|n| Splat {
-            centre_px: [f64::from(n) * 1.63, f64::from(n * 31 % 97)],
-            illuminance: Xyzv::new(1e-6, 1e-6, 1e-6, 2e-6) * f64::from(n % 7),
+        .map(|n| {
+            let illuminance = Xyzv::new(1e-6, 1e-6, 1e-6, 2e-6) * f64::from(n % 7);
+            Splat::star([f64::from(n) * 1.63, f64::from(n * 31 % 97)], illuminance)
         })
         .collect();
     for eye in [Eye::default(), Eye { grain: Some(9), ..Eye::default() }] {
@@ -525,7 +524,7 @@ fn screens_show_the_same(renderer: &Renderer) -> Result<(), Failed> {
     let frame = frame_of(96, 40, |x, y| {
         light(20.0 * (1.0 + x / 30.0), [0.95 + 0.002 * y, 1.09 - 0.006 * y, 2.4])
     });
-    let star = Splat { centre_px: [40.0, 20.0], illuminance: Xyzv::new(1e-2, 1e-2, 1e-2, 2e-2) };
+    let star = Splat::star([40.0, 20.0], Xyzv::new(1e-2, 1e-2, 1e-2, 2e-2));
     let of = |space: ColourSpace, red: bool, depth: Depth| -> Result<Picture, Failed> {
         let display = Display { space, red, ..Display::default() };
         let look = Look { viewer: Viewer::Eye(&eye), display: &display, depth };

@@ -96,7 +96,7 @@ fn splats_conserve_flux_and_place(renderer: &Renderer) -> Result<(), Failed> {
                 [0.55 * w + 0.5, 0.21 * h],
                 [0.68 * w + 0.25, 0.78 * h + 0.75],
             ];
-            let splats = centres.map(|centre_px| Splat { centre_px, illuminance }).to_vec();
+            let splats = centres.map(|centre_px| Splat::star(centre_px, illuminance)).to_vec();
             let frame = drawn(renderer, &FramePlan { splats, ..dark_plan(camera) })?;
             for centre in centres {
                 let (sum, at) = measured(&frame, &camera, centre, 4.0);

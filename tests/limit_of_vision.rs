@@ -44,9 +44,8 @@ const ZERO: Xyzv = Xyzv::new(2.79e-6, 2.54e-6, 0.90e-6, 1.38 * 2.54e-6);
 type Star = ([f64; 2], f64);
 
 fn splats(stars: &[Star]) -> Vec<Splat> {
-    let splat = |(centre_px, magnitude): &Star| Splat {
-        centre_px: *centre_px,
-        illuminance: ZERO * 10f64.powf(-0.4 * magnitude),
+    let splat = |(centre_px, magnitude): &Star| {
+        Splat::star(*centre_px, ZERO * 10f64.powf(-0.4 * magnitude))
     };
     stars.iter().map(splat).collect()
 }

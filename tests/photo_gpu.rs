@@ -204,7 +204,7 @@ fn spikes_keep_light(renderer: &Renderer) -> Result<(), Failed> {
             sky: SkyPlan::black(Angle::ZERO),
             milky_way: None,
             discs: Vec::new(),
-            splats: vec![Splat { centre_px, illuminance: left }],
+            splats: vec![Splat::star(centre_px, left)],
         };
         let frame = renderer.frame_with_spikes(&plan, &lines)?.frame;
         let sum = illuminance(&frame, &camera);

@@ -27,9 +27,6 @@ const POINT_PX: f64 = 4.0;
 /// What an eye spreads no farther than this is no glare but the fineness of its image.
 const NEAR: Angle = Angle::from_arcmin(8.0);
 
-/// Brighter than any star or planet, lux: magnitude -6.5.
-const BODY_LX: f64 = 1e-3;
-
 /// No point fainter than this has a flare by the widest pupil, lux: a star of magnitude 0.
 const FAINTEST_FLARE_LX: f64 = 2.5e-6;
 
@@ -89,10 +86,9 @@ pub struct SeenPoint {
 }
 
 impl Eye {
-    /// Whether a point of light of an illuminance in lux is seen as part of the frame like everything else: small
-    /// Suns and Moons, which are no stars, and by the paper's eye all.
-    pub fn sees_in_frame(&self, illuminance: Xyzv) -> bool {
-        self.model == Model::Paper || illuminance.y > BODY_LX
+    /// Whether stars are seen as light of the frame like everything else.
+    pub fn sees_stars_in_frame(&self) -> bool {
+        self.model == Model::Paper
     }
 
     /// What it makes of a picture, given the light of its foveal level as the steps down leave it.

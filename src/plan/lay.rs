@@ -198,7 +198,7 @@ fn lay_stars(
         match star {
             Ok((pixel, illuminance)) => {
                 let repeats = repeats_of(&camera, Some(pixel));
-                plan.splats.extend(repeats.map(|centre_px| Splat { centre_px, illuminance }));
+                plan.splats.extend(repeats.map(|centre_px| Splat::star(centre_px, illuminance)));
                 drawn += 1;
             }
             Err(reason) => ledger.skip("stars", reason),
@@ -429,6 +429,9 @@ enum Laid {
     Not(&'static str),
 }
 
+/// Brighter than any star or planet, lux: magnitude -6.5.
+const BRIGHTEST_STAR_LX: f64 = 1e-3;
+
 /// Draws a body as a disc, or as points of light, which twinkle, when it is small.
 fn lay_body(
     seen: &SeenBody,
@@ -439,12 +442,18 @@ fn lay_body(
     kept: &mut KeptGlobe,
 ) -> Result<Laid, PlanError> {
     let points = |any: bool| if any { Laid::Points } else { Laid::Not(OUT_OF_VIEW) };
+    let first = plan.splats.len();
+    let is_of_disc = seen.light().y > BRIGHTEST_STAR_LX;
+    let marked = |splats: &mut [Splat]| {
+        splats.iter_mut().for_each(|splat| splat.is_of_disc = is_of_disc);
+    };
     if seen.is_point() {
         if seen.is_below_horizon() {
             return Ok(Laid::Not(BELOW_HORIZON));
         }
         let light = seen.light() * twinkle;
         let any = lay_point(&plan.camera, seen.apparent(), light, &mut plan.splats);
+        marked(&mut plan.splats[first..]);
         return Ok(points(any));
     }
     let Some(bounds_px) = seen.bounds_px() else { return Ok(Laid::Not(OUT_OF_VIEW)) };
@@ -456,6 +465,7 @@ fn lay_body(
         for (apparent, light) in seen.points(&shape, &air) {
             any |= lay_point(&plan.camera, apparent, light * twinkle, &mut plan.splats);
         }
+        marked(&mut plan.splats[first..]);
         return Ok(points(any));
     }
     let shape = seen.shape(None);
@@ -473,7 +483,7 @@ fn lay_point(
 ) -> bool {
     let before = splats.len();
     let repeats = repeats_px(camera, apparent);
-    splats.extend(repeats.map(|centre_px| Splat { centre_px, illuminance }));
+    splats.extend(repeats.map(|centre_px| Splat::star(centre_px, illuminance)));
     splats.len() > before
 }
 
