@@ -36,7 +36,7 @@ use crate::units::Angle;
 use super::spread::Spread;
 
 /// The widest level has no more texels than this on the longer edge.
-const WIDEST_TEXELS: usize = 8;
+const WIDEST_TEXELS: usize = 4;
 /// The fit goes from the next pixel but one to this angle, or from the middle of the picture to its
 /// edge.
 const FARTHEST_DEG: f64 = 60.0;
