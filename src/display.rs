@@ -7,8 +7,9 @@
 //! dithering rounds them.
 //!
 //! *Gamut.* No channel is cut by itself: that would turn hues. A negative channel goes towards the grey
-//! of the same luminance until it is zero. A channel above one: a quarter of what is shown has moved
-//! to the grey of its luminance (white, when it is brighter than that), the rest has been dimmed. So a
+//! of the same luminance until it is zero. A channel above one: a part of what is shown has moved
+//! to the grey of its luminance (white, when it is brighter than that), the square of that luminance, and
+//! the rest has been dimmed. So a
 //! bright orange light becomes paler and stays orange.
 //!
 //! *Dithering* adds noise of a triangular density, two codes wide, before rounding: neither the mean nor the
@@ -195,9 +196,6 @@ pub fn srgb_curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// How much of a colour that is too bright for a primary becomes paler; the rest is dimmed.
-const PALER: f64 = 0.25;
-
 /// A colour within the gamut, and with its hue, of any linear RGB and its luminance.
 pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     let grey = luminance.max(0.0);
@@ -213,7 +211,9 @@ pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     let white = grey.min(1.0);
     let keep = (1.0 - white) / (high - white);
     let paler = DVec3::splat(white) + (positive - grey) * keep;
-    paler * PALER + positive / high * (1.0 - PALER)
+    // The brighter it is, the more of it goes to white.
+    let share = white * white;
+    paler * share + positive / high * (1.0 - share)
 }
 
 /// Noise of a pixel, 0 up to 1, spread evenly over any few neighbours: the sequence R2.

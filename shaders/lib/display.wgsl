@@ -19,13 +19,14 @@ fn gamut(rgb: vec3f, luminance: f32) -> vec3f {
     let kept = grey / max(grey - low, 1e-37);
     let positive = grey + (rgb - grey) * kept;
     let high = max(max(positive.r, positive.g), positive.b);
-    // A quarter of it moved to the grey of its luminance, or to white, the rest dimmed; what is divided by zero
-    // is within the gamut.
+    // A part of it moved to the grey of its luminance, or to white, the more the brighter it is, the rest
+    // dimmed; what is divided by zero is within the gamut.
     let white = min(grey, 1.0);
-    let both = 0.25 / (high * (high - white));
-    let paler = (1.0 - white) * high * both;
-    let dimmed = 3.0 * (high - white) * both;
-    let brought = positive * (paler + dimmed) + (0.25 * white - grey * paler);
+    let share = white * white;
+    let both = 1.0 / (high * (high - white));
+    let paler = share * (1.0 - white) * high * both;
+    let dimmed = (1.0 - share) * (high - white) * both;
+    let brought = positive * (paler + dimmed) + (share * white - grey * paler);
     return select(positive, brought, high > 1.0);
 }
 
