@@ -52,7 +52,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Draw the sky of an instant and a place
-    Render(render::RenderArgs),
+    Render(Box<render::RenderArgs>),
     /// List places that are known, with coordinates and time zone
     Place(place::PlaceArgs),
     /// List the Sun, the Moon, planets and stars: where they stand and how bright they are

@@ -84,7 +84,7 @@ pub struct Look<'a> {
 #[derive(Debug, Clone)]
 pub enum Made {
     Seen(Box<Seeing>),
-    Exposed(Exposure),
+    Exposed(Box<Exposure>),
 }
 
 /// A picture, how it was made, and what it cost.
@@ -227,13 +227,13 @@ impl Renderer {
                     pass.spikes(&mut frame, &spikes.lines);
                 }
                 pass.picture(&mut frame, &exposure, look.display, &picture);
-                Made::Exposed(exposure)
+                Made::Exposed(Box::new(exposure))
             }
             Viewer::Exposure(exposure) => {
                 let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
                 splats(&mut frame);
                 pass.picture(&mut frame, exposure, look.display, &picture);
-                Made::Exposed(*exposure)
+                Made::Exposed(Box::new(*exposure))
             }
         };
         let finished = frame.finish()?;

@@ -92,7 +92,7 @@ pub fn draw(
                 }
                 Made::Exposed(exposure) => {
                     viewer = Some(exposure.to_string());
-                    picture.exposure = Some(exposure);
+                    picture.exposure = Some(*exposure);
                 }
             }
             looked.times

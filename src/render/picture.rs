@@ -104,7 +104,7 @@ impl PictureTarget {
             Depth::Linear => {
                 let light = read_pixels(gpu, &self.texture, [0.0f32; 4])?;
                 // Points are added to what may be white already.
-                let share = |share: f32| share.max(0.0).min(1.0);
+                let share = |share: f32| if share > 0.0 { share.min(1.0) } else { 0.0 };
                 Picture::Linear(light.map(|[red, green, blue, _]| [red, green, blue].map(share)))
             }
         })
