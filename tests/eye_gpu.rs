@@ -128,8 +128,9 @@ fn keen() -> Eye {
 
 const SIZES: [(u32, u32); 5] = [(333, 97), (961, 541), (7, 5), (1, 1), (2, 300)];
 
-/// Two and a half codes, five in the smallest pictures, as measured: the picture leaves out glare of less than 0.4 % in a tile and of less than 1 % in the whole
-/// picture, holds its table in halves and goes up from the second level at once.
+/// Four codes, five in the smallest pictures, as measured in colours that hardly fit a screen: the picture
+/// leaves out glare of less than 0.4 % in a tile and of less than 1 % in the whole picture, holds its table
+/// in halves, goes up from the second level at once, and smooth light is brought into the gamut before.
 fn smooth_skies_are_the_twins(renderer: &Renderer) -> Result<(), Failed> {
     let colours = [[0.95, 1.09, 0.3], [1.3, 0.2, 0.7], DAY, NIGHT, [0.8, 1.9, 5.0]];
     for exponent in -6..=9 {
@@ -142,7 +143,7 @@ fn smooth_skies_are_the_twins(renderer: &Renderer) -> Result<(), Failed> {
             };
             let frame = frame_of(width, height, at);
             let off = off_codes(renderer, &frame, &camera(width, height, 60.0), &keen())?;
-            let within = if width > 64 { 2.5 } else { 5.0 };
+            let within = if width > 64 { 4.0 } else { 5.0 };
             check(off < within, || {
                 format!("1e{exponent} {colour:?} {width}x{height}: {off} codes")
             })?;

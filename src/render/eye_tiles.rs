@@ -19,6 +19,9 @@ const SMOOTH: f64 = 0.006;
 /// Cells of the foveal picture tell what is smooth if they are no larger than this, pixels.
 const TELLING_PX: u32 = 16;
 
+/// A level that is nearly lost is taken for lost: moonlit skies at the usual field are.
+const ROUND_UP: f64 = 0.65;
+
 /// A tile of a picture: left, top, right and bottom, pixels.
 pub type Tile = [u32; 4];
 
@@ -28,7 +31,7 @@ pub const FINISHED_LEVELS: usize = 2;
 /// The tiles of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EyeTiles {
-    /// Resolved no finer than the picture at level 1 and 2, to half a level.
+    /// Resolved no finer than the picture at level 1 and 2, to two thirds of a level.
     pub soft: [Vec<Tile>; FINISHED_LEVELS],
     /// Whether less than that level is resolved somewhere in them.
     pub blurs: bool,
@@ -71,7 +74,7 @@ impl EyeTiles {
                     bend = bend.max(cell.bend);
                 }
                 let finest = resolved(brightest);
-                let level = if bend < SMOOTH { coarsest } else { (finest + 0.5) as usize };
+                let level = if bend < SMOOTH { coarsest } else { (finest + ROUND_UP) as usize };
                 if let Some(level) = level.min(coarsest).checked_sub(1) {
                     tiles.blurs |= bend >= SMOOTH && resolved(darkest) >= level as f64 + 1.5;
                     tiles.soft[level].push(tile);
