@@ -14,6 +14,7 @@ sky: driver
 
 # The core alone first: it must build and pass without a GPU, a window or a picture format.
 test: driver
+	@scripts/prepare.sh window
 	cargo test --release --no-default-features
 	cargo test --release
 
@@ -31,11 +32,12 @@ lint:
 # Draws the golden pictures again; look at them before they are committed.
 goldens: driver
 	NOCTURNE_GOLDENS=write cargo test --release --test golden
+	UPDATE_SNAPSHOTS=1 cargo test --release --test window snapshots
 
 # Draws the pictures of the README.
 MOON = --place Flagstaff --look Moon --fov 0.6 --size 480x480
-SATURN = --place Flagstaff --look Saturn --fov 0.02 --size 480x480 --exposure -2.5
-JUPITER = --place Flagstaff --look Jupiter --fov 0.02 --size 480x480 --exposure -2.5
+SATURN = --place Flagstaff --look Saturn --fov 0.02 --size 480x480 --exposure -1.5
+JUPITER = --place Flagstaff --look Jupiter --fov 0.02 --size 480x480 --exposure -1.5
 ECLIPSED = --place Flagstaff --look Moon --fov 0.6 --size 300x300
 TOTALITY = --at 2026-08-12T18:29:40Z --place Burgos --look Sun
 pictures: driver
@@ -53,14 +55,14 @@ pictures: driver
 		--map docs/night/gegenschein.png
 	$(NOCTURNE) render --at 2017-06-15T07:30:00Z $(SATURN) -o docs/planets/saturn.png
 	$(NOCTURNE) render --at 2026-01-10T06:30:00Z $(JUPITER) -o docs/planets/jupiter.png
-	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1.5 -o docs/moon/quarter.png
+	$(NOCTURNE) render --at 2026-08-20T03:30:00Z $(MOON) --exposure -1 -o docs/moon/quarter.png
 	$(NOCTURNE) render --at 2026-03-03T11:05:00Z $(MOON) -o docs/moon/eclipse.png
-	$(NOCTURNE) render --at 2026-07-17T04:00:00Z $(MOON) --exposure 5 -o docs/moon/earthshine.png
+	$(NOCTURNE) render --at 2026-07-17T04:00:00Z $(MOON) --exposure 4 -o docs/moon/earthshine.png
 	$(NOCTURNE) render $(TOTALITY) --fov 95 --altitude 22 --size 1280x720 -o docs/eclipses/total_sun.png
 	$(NOCTURNE) render $(TOTALITY) --fov 6 --exposure -2 --size 640x480 -o docs/eclipses/corona.png
-	$(NOCTURNE) render --at 2026-08-12T18:05:00Z --place Burgos --look Sun --fov 1.2 --size 480x480 --exposure -6 -o docs/eclipses/partial_sun.png
-	$(NOCTURNE) render --at 2026-03-03T09:35:00Z $(ECLIPSED) --exposure -1.5 -o docs/eclipses/moon_penumbra.png
-	$(NOCTURNE) render --at 2026-03-03T10:30:00Z $(ECLIPSED) --exposure -1.5 -o docs/eclipses/moon_partial.png
+	$(NOCTURNE) render --at 2026-08-12T18:05:00Z --place Burgos --look Sun --fov 1.2 --size 480x480 --exposure -5 -o docs/eclipses/partial_sun.png
+	$(NOCTURNE) render --at 2026-03-03T09:35:00Z $(ECLIPSED) --exposure -1 -o docs/eclipses/moon_penumbra.png
+	$(NOCTURNE) render --at 2026-03-03T10:30:00Z $(ECLIPSED) --exposure -1 -o docs/eclipses/moon_partial.png
 	$(NOCTURNE) render --at 2026-03-03T11:05:30Z $(ECLIPSED) -o docs/eclipses/moon_edge.png
 	$(NOCTURNE) render --at 2026-03-03T11:33:40Z $(ECLIPSED) -o docs/eclipses/moon_deep.png
 

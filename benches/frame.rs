@@ -146,6 +146,9 @@ fn viewers(
     println!("\nPlans, ms                          size   Night::of         lay  splats  discs");
     let mut plans = Vec::new();
     for size in [(960, 540), (1920, 1080), (3840, 2160)] {
+        if std::env::var_os("EYE8_DEBUG").is_some() && size.0 != 1920 {
+            continue;
+        }
         for (name, utc) in VIEWED {
             plans.push((name, plan(name, utc, size, catalogs, moon_maps)?));
         }
@@ -164,6 +167,38 @@ fn viewers(
         for (who, viewer) in viewers {
             let look = Look { viewer, display: &display, depth: Depth::Codes };
             renderer.look(plan, &look, false)?;
+            if std::env::var_os("EYE8_DEBUG").is_some() {
+                if who == "paper" {
+                    continue;
+                }
+                let cpu = || -> f64 {
+                    let mut sum = 0.0;
+                    for task in std::fs::read_dir("/proc/self/task").unwrap().flatten() {
+                        let stat = std::fs::read_to_string(task.path().join("schedstat"));
+                        let ns = stat.ok().and_then(|s| s.split(' ').next()?.parse::<f64>().ok());
+                        sum += ns.unwrap_or(0.0) * 1e-6;
+                    }
+                    sum
+                };
+                let mut most = Vec::new();
+                for _ in 0..8 {
+                    let before = cpu();
+                    renderer.look(plan, &look, false)?;
+                    most.push(cpu() - before);
+                }
+                let mut frames = Vec::new();
+                for _ in 0..8 {
+                    let before = cpu();
+                    renderer.frame_with(plan, SkyDetail::Tiles)?;
+                    frames.push(cpu() - before);
+                }
+                most.sort_by(f64::total_cmp);
+                frames.sort_by(f64::total_cmp);
+                println!(
+                    "CPU {name} {who}: look {:.1} {:.1}, frame {:.1} {:.1}",
+                    most[0], most[4], frames[0], frames[4]
+                );
+            }
             let mut runs = Vec::new();
             for _ in 0..FRAMES {
                 let mut by_pass: Vec<(String, f64)> = Vec::new();

@@ -1,8 +1,8 @@
 //! Sheets of skies to look at: an evening from the Sun 30 degrees high to 18 degrees below the horizon, a
 //! night under the full Moon, and the shadow of the Earth opposite the sunset.
 //!
-//! `cargo run --release --example 6_twilight_sheets [folder]` writes `evening.png` (rows: one exposure for
-//! all, an eye that adapts to each), `moonlit.png` and `earth_shadow.png`.
+//! `cargo run --release --example 6_twilight_sheets [folder]` writes `evening.png` (rows: a camera with one
+//! exposure for all, an eye that adapts to each), `moonlit.png` and `earth_shadow.png`.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,7 @@ use nocturne::eye::Eye;
 use nocturne::image::Image;
 use nocturne::light::night::Night;
 use nocturne::light::night_lights::NightGlow;
+use nocturne::photo::Photo;
 use nocturne::plan::lay::lay;
 use nocturne::render::picture::{Depth, Picture};
 use nocturne::render::{Look, Renderer, Viewer};
@@ -27,8 +28,9 @@ use nocturne::units::Angle;
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 const SUNS_DEG: [f64; 10] = [30.0, 5.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -15.0, -18.0];
-/// What the eye of the upper row is adapted to, cd/m2: the sky soon after sunset.
-const FIXED_CD_M2: f64 = 5.0;
+/// How long the camera of the upper row is open, seconds: right at f/2.8 and ISO 100 for the sky soon after
+/// sunset, 20 cd/m2.
+const OPEN_S: f64 = 0.05;
 const SIDE_PX: u32 = 200;
 
 /// What draws, and where.
@@ -52,11 +54,15 @@ fn main() -> Outcome<()> {
     // An evening at new Moon: minutes after 2026-08-12 20:00 UTC.
     let evening = |minute: f64| utc(2026, 8, 12, 20.0 * 60.0 + minute);
     let (mut fixed, mut adapted) = (Vec::new(), Vec::new());
+    let mut camera =
+        Photo { shutter_s: Some(OPEN_S), iso: Some(100.0), noise: false, ..Photo::default() };
+    camera.lens.vignetting = false;
+    let (camera, eye) = (Viewer::Photo(&camera), Eye::default());
     for sun_deg in SUNS_DEG {
         let minute = studio.when(evening, 0.0, 620.0, sun_deg, |sky| &sky.sun)?;
         let scene = studio.all_sky(evening(minute));
-        fixed.push(studio.draw(&scene, Some(FIXED_CD_M2))?);
-        adapted.push(studio.draw(&scene, None)?);
+        fixed.push(studio.draw(&scene, camera)?);
+        adapted.push(studio.draw(&scene, Viewer::Eye(&eye))?);
         println!("Sun {sun_deg:>4}°: {}", scene.utc);
     }
     write(&folder.join("evening.png"), &sheet(&[fixed, adapted]))?;
@@ -66,7 +72,9 @@ fn main() -> Outcome<()> {
     let minute = studio.when(night, 300.0, 60.0, 40.0, |sky| &sky.moon.state)?;
     let scene = studio.all_sky(night(minute));
     println!("Moon: {}", scene.utc);
-    let panels = vec![studio.draw(&scene, Some(0.02))?, studio.draw(&scene, None)?];
+    let keen = Eye { adaptation_cd_m2: Some(0.02), ..Eye::default() };
+    let panels = [&keen, &eye].map(|eye| studio.draw(&scene, Viewer::Eye(eye)));
+    let panels = panels.into_iter().collect::<Outcome<Vec<_>>>()?;
     write(&folder.join("moonlit.png"), &sheet(&[panels]))?;
 
     // Opposite the sunset, three degrees after it.
@@ -81,7 +89,7 @@ fn main() -> Outcome<()> {
         width_px: 1500,
         height_px: 450,
     };
-    write(&folder.join("earth_shadow.png"), &studio.draw(&scene, None)?)
+    write(&folder.join("earth_shadow.png"), &studio.draw(&scene, Viewer::Eye(&eye))?)
 }
 
 impl Studio {
@@ -142,14 +150,12 @@ impl Studio {
         }
     }
 
-    fn draw(&self, scene: &Scene, adaptation_cd_m2: Option<f64>) -> Outcome<Image<[u8; 3]>> {
+    fn draw(&self, scene: &Scene, viewer: Viewer) -> Outcome<Image<[u8; 3]>> {
         let setting = scene.setting()?;
         let sky =
             SkyState::at(&self.ephemeris, &setting.instant, &setting.place, setting.tolerance)?;
         let night = Night::of(sky, self.catalogs.stars()?, &scene.air);
         let (plan, _) = lay(&setting, &scene.layers, &night, &self.catalogs)?;
-        let eye = Eye { adaptation_cd_m2, ..scene.eye.clone() };
-        let viewer = Viewer::Eye(&eye);
         let look = Look { viewer, display: &scene.display, depth: Depth::Codes };
         match self.renderer.look(&plan, &look, false)?.picture {
             Picture::Codes(picture) => Ok(picture),

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Sees to it that the machine can link a Rust program (`linker`), draw with Vulkan (`adapter`), or run
-# Stellarium without a screen (`stellarium`): installs the Debian packages if this user may, and names them otherwise.
+# Sees to it that the machine can link a Rust program (`linker`), draw with Vulkan (`adapter`), open the window
+# without a screen and a hand (`window`), or run Stellarium without a screen (`stellarium`): installs the Debian
+# packages if this user may, and names them otherwise.
 set -u
 
 case "${1:-}" in
@@ -15,6 +16,15 @@ adapter)
     purpose="a Vulkan driver that draws in software, since no graphics adapter was found"
     needed=0
     ;;
+window)
+    if command -v Xvfb >/dev/null 2>&1 && command -v xdotool >/dev/null 2>&1 &&
+        command -v xclip >/dev/null 2>&1; then
+        exit 0
+    fi
+    packages="xvfb xdotool xclip libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0"
+    purpose="a screen and a hand for the test of the real window"
+    needed=0
+    ;;
 stellarium)
     if command -v stellarium >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1 &&
         python3 -c "import ensurepip" 2>/dev/null; then
@@ -25,7 +35,7 @@ stellarium)
     needed=1
     ;;
 *)
-    echo "usage: $0 linker|adapter|stellarium" >&2
+    echo "usage: $0 linker|adapter|window|stellarium" >&2
     exit 2
     ;;
 esac
@@ -51,5 +61,5 @@ else
     echo "Please install $packages (on Debian: apt-get install $packages): $purpose." >&2
 fi
 # Without a linker nothing can be built. Without an adapter the program says so itself, and the
-# tests that need one are reported as ignored.
+# tests that need one, or a window, are reported as ignored.
 exit "$needed"

@@ -1,8 +1,7 @@
 // Spheres that show a disc: the Sun, the Moon, and planets when the field is narrow.
 //
-// A field of 0.02 degrees has pixels of 2e-7 radians, less than a direction in 32 bits can tell. All
-// is therefore reckoned as a difference: from the point of the disc where the lowest node is seen,
-// then from the centre of the disc. Small differences keep their digits.
+// Where a pixel lies on the disc is said by lib/disc_far.wgsl or, on narrow pictures, lib/disc_near.wgsl:
+// `across_at`, `at_place`, `point_at`, `beyond_limb`, `beside_occluder`, of the same meaning in both.
 
 const NODES: u32 = 33;
 
@@ -93,105 +92,6 @@ fn shape(band: u32, normal: vec3f, cos_emission: f32) -> f32 {
     return max(dot(normal, disc.to_sun.xyz), 0.0);
 }
 
-// The sine of an angle over the angle, with all digits for small ones.
-fn sinc(angle: Radians) -> f32 {
-    let square = angle * angle;
-    let series = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0));
-    return select(sin(angle) / angle, series, square < 0.1);
-}
-
-// Given a point in pixels, the direction seen there in camera axes: right, up, and one less the
-// cosine of the angle from the axis, in z; w is negative where there is no sky.
-fn offset_from_pixel(pixel: vec2f) -> vec4f {
-    let plane = plane_from_pixel(camera, pixel);
-    let square = dot(plane, plane);
-    switch camera.projection {
-        case PERSPECTIVE: {
-            let cosine = inverseSqrt(1.0 + square);
-            return vec4f(plane * cosine, square * cosine * cosine / (1.0 + cosine), 1.0);
-        }
-        case STEREOGRAPHIC: {
-            let scale = 1.0 / (1.0 + 0.25 * square);
-            return vec4f(plane * scale, 0.5 * square * scale, 1.0);
-        }
-        case EQUAL_AREA: {
-            let rest = 1.0 - 0.25 * square;
-            return vec4f(plane * sqrt(max(rest, 0.0)), 0.5 * square, rest);
-        }
-        case EQUIRECTANGULAR: {
-            let half = 0.5 * vec2f(sinc(0.5 * plane.x), sinc(0.5 * plane.y)) * plane;
-            let level = 1.0 - 2.0 * half.y * half.y;
-            let versine = 2.0 * half.y * half.y + 2.0 * level * half.x * half.x;
-            let dir = vec2f(level * sinc(plane.x) * plane.x, sinc(plane.y) * plane.y);
-            return vec4f(dir, versine, select(-1.0, 1.0, abs(plane.x) <= PI && abs(plane.y) <= 0.5 * PI));
-        }
-        default: {
-            let radius = sqrt(square);
-            let half = 0.5 * sinc(0.5 * radius) * radius;
-            return vec4f(plane * sinc(radius), 2.0 * half * half, PI - radius);
-        }
-    }
-}
-
-// A point of the picture as the disc has it.
-struct Across {
-    // Place among the nodes by apparent altitude, 0 at the lowest; negative where nothing is seen.
-    place: f32,
-    // Sine of the azimuth from the centre, and one less its cosine.
-    sin_azimuth: f32,
-    versine_azimuth: f32,
-}
-
-const NOTHING = Across(-1e9, 0.0, 0.0);
-
-// Given a point in pixels, where it lies across the disc.
-fn across_at(pixel: vec2f) -> Across {
-    let view = offset_from_pixel(pixel);
-    if view.w < 0.0 {
-        return NOTHING;
-    }
-    let off = camera.apparent_from_view * (view.xyz - disc.lowest_in_view.xyz);
-    let flat = disc.lowest.xy + off.xy;
-    let level = max(length(flat), 1e-12);
-    // sin(a - b) = sin a cos b - cos a sin b, in differences from b.
-    let narrowing = -off.z * (2.0 * disc.lowest.z + off.z) / (level + disc.lowest.w);
-    let sine = off.z * disc.lowest.w - narrowing * disc.lowest.z;
-    let above = sine * (1.0 + sine * sine / 6.0);
-    let lengths = level * max(disc.lowest.w, 1e-12);
-    let sin_azimuth = (off.x * disc.lowest.y - off.y * disc.lowest.x) / lengths;
-    let cos_azimuth = sqrt(max(1.0 - sin_azimuth * sin_azimuth, 0.0));
-    let ahead = dot(flat, disc.lowest.xy) >= 0.0;
-    let near = sin_azimuth * sin_azimuth / (1.0 + cos_azimuth);
-    return Across(above * disc.per_step, sin_azimuth, select(2.0 - near, near, ahead));
-}
-
-// Given a sight, the point of the disc in a band, level and up, in radii; in z one less the
-// cosine of its angle from the centre.
-fn point_at(band: u32, sight: Across) -> vec3f {
-    let node = min(u32(sight.place), NODES - 2u);
-    let t = sight.place - f32(node);
-    // Hermite's cubic through two nodes and their slopes.
-    let low = bands[band].above_centre[node].xy;
-    let high = bands[band].above_centre[node + 1u].xy;
-    let gain = high.x - low.x;
-    let bend = (low.y - gain) * (1.0 - t) - (high.y - gain) * t;
-    let above = low.x + t * (gain + (1.0 - t) * bend);
-    let half = 0.5 * above * sinc(0.5 * above);
-    let versine = 2.0 * half * half;
-    let sine = above * sinc(above);
-    let cos_altitude = disc.centre.y * (1.0 - versine) - disc.centre.x * sine;
-    let across = cos_altitude * sight.sin_azimuth;
-    let up = sine + cos_altitude * disc.centre.x * sight.versine_azimuth;
-    let away = versine + cos_altitude * disc.centre.y * sight.versine_azimuth;
-    return vec3f(vec2f(across, up) / disc.centre.z, away);
-}
-
-// How far a point of the disc is from what stands in front, less its radius; both as chords.
-fn beside_occluder(at: vec3f) -> f32 {
-    let off = at.xy * disc.centre.z - disc.occluder.xy;
-    return length(vec3f(off, at.z - disc.occluder.z)) - disc.occluder.w;
-}
-
 // Whether a sight is one at which the disc may be.
 fn is_on_disc(sight: Across) -> bool {
     return sight.place >= 0.0 && sight.place <= f32(NODES - 1u);
@@ -207,11 +107,10 @@ fn light_at(pixel: vec2f) -> LuminanceXyzv {
     let node = min(u32(sight.place), NODES - 2u);
     let along = sight.place - f32(node);
     for (var band = 0u; band < disc.bands; band++) {
-        let at = point_at(band, sight);
-        let squared = dot(at.xy, at.xy);
-        if squared < 1.0 && at.z < 0.5 && beside_occluder(at) >= 0.0 {
-            let cos_emission = sqrt(1.0 - squared);
-            let normal = vec3f(at.xy, -cos_emission);
+        let point = point_at(band, sight);
+        if point.over < 0.0 && point.at.z < 0.5 && beside_occluder(point) >= 0.0 {
+            let cos_emission = sqrt(-point.over);
+            let normal = vec3f(point.at.xy, -cos_emission);
             let luminance =
                 mix(bands[band].luminance[node], bands[band].luminance[node + 1u], along);
             light += luminance * shape(band, normal, cos_emission);
@@ -230,14 +129,14 @@ fn lattice_at(middle: vec2f) -> vec2u {
     if low < -margin || high > margin {
         return vec2u(0u);
     }
-    let nearest = Across(clamp(sight.place, 0.0, f32(NODES - 1u)), sight.sin_azimuth, sight.versine_azimuth);
-    let at = point_at(disc.bands / 2u, nearest);
-    let outside = length(at.xy) - 1.0;
-    if outside > disc.edge || at.z > 0.5 {
+    let nearest = at_place(sight, clamp(sight.place, 0.0, f32(NODES - 1u)));
+    let point = point_at(disc.bands / 2u, nearest);
+    let outside = beyond_limb(point);
+    if outside > disc.edge || point.at.z > 0.5 {
         return vec2u(0u);
     }
     let is_inside = low > margin && high < -margin && outside < -disc.edge;
-    let is_free = abs(beside_occluder(at)) > margin;
+    let is_free = abs(beside_occluder(point)) > margin;
     return select(disc.samples.zw, disc.samples.xy, is_inside && is_free);
 }
 
@@ -267,8 +166,7 @@ struct Seen {
 }
 
 // Given the number of a corner, row by row, and the band.
-@vertex
-fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band: u32) -> Seen {
+fn globe_corner(index: u32, band: u32) -> Seen {
     let first = band * CHANNELS;
     let corners = disc.samples.y + 1u;
     let corner = vec2u(index % corners, index / corners);
@@ -290,13 +188,18 @@ fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band
         lights[channel] = mix(low, bands[first + channel].luminance[node + 1u], along) * shares[channel];
     }
     // Beyond the nodes the point goes on as it went.
-    var at = point_at(first, Across(place, sight.sin_azimuth, sight.versine_azimuth));
+    var at = point_at(first, at_place(sight, place)).at;
     let rise = bands[first].above_centre[select(0u, NODES - 1u, sight.place > 0.0)].y;
     at.y += (sight.place - place) * rise / disc.centre.z;
     let turned = vec2f(at.x * disc.north.y - at.y * disc.north.x, at.x * disc.north.x + at.y * disc.north.y);
     let point = select(vec2f(9.0), turned, at.z < 0.5);
     let cut = select(UNCUT, sight.place, disc.samples.w == 1u);
     return Seen(position, point, cut, lights[0], lights[1], lights[2], lights[3]);
+}
+
+@vertex
+fn globe_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) band: u32) -> Seen {
+    return globe_corner(index, band);
 }
 
 // Given a point of the disc in radii, what the picture of the globe shows there to a sample of that width.

@@ -148,11 +148,11 @@ fn planet_light(pixel: vec2f) -> LuminanceXyzv {
     let node = min(u32(sight.place), NODES - 2u);
     let along = sight.place - f32(node);
     for (var band = 0u; band < disc.bands; band++) {
-        let at = point_at(band, sight);
-        if length(at.xy) < planet.reach && at.z < 0.5 && beside_occluder(at) >= 0.0 {
+        let point = point_at(band, sight);
+        if length(point.at.xy) < planet.reach && point.at.z < 0.5 && beside_occluder(point) >= 0.0 {
             let luminance =
                 mix(bands[band].luminance[node], bands[band].luminance[node + 1u], along);
-            light += luminance * planet_at(at.xy);
+            light += luminance * planet_at(point.at.xy);
         }
     }
     return light;
@@ -202,15 +202,16 @@ fn planet_sampling(middle: vec2f) -> Sampling {
     if low < -margin || high > margin {
         return outside;
     }
-    let nearest = Across(clamp(sight.place, 0.0, f32(NODES - 1u)), sight.sin_azimuth, sight.versine_azimuth);
-    let at = point_at(disc.bands / 2u, nearest);
+    let nearest = at_place(sight, clamp(sight.place, 0.0, f32(NODES - 1u)));
+    let point = point_at(disc.bands / 2u, nearest);
+    let at = point.at;
     let beside = beside_edges(at.xy);
     let is_empty = globe_on(at.xy).x > 1.0 && planet.ring_count == 0u && beside > disc.edge;
     if length(at.xy) > planet.reach + disc.edge || at.z > 0.5 || is_empty {
         return outside;
     }
     let is_inside = low > margin && high < -margin && beside > disc.edge
-        && abs(beside_occluder(at)) > margin;
+        && abs(beside_occluder(point)) > margin;
     let is_full = disc.to_sun.z < -0.9;
     return Sampling(select(disc.samples.zw, disc.samples.xy, is_inside), is_inside && is_full);
 }
@@ -227,8 +228,8 @@ fn planet_fragment(@builtin(position) position: vec4f) -> @location(0) Luminance
         let pixel = first + (vec2f(f32(k), f32(row)) + 0.5) / f32(count);
         if sampling.is_together {
             // All colours of a smooth surface as the middle one.
-            let at = point_at(disc.bands / 2u, across_at(pixel));
-            shapes += select(planet_at(at.xy), 0.0, beside_occluder(at) < 0.0);
+            let point = point_at(disc.bands / 2u, across_at(pixel));
+            shapes += select(planet_at(point.at.xy), 0.0, beside_occluder(point) < 0.0);
         } else {
             sum += planet_light(pixel);
         }

@@ -41,11 +41,17 @@ struct Halo {
 @group(0) @binding(6) var halo_rows: texture_2d<f32>;
 @group(0) @binding(7) var<uniform> display: DisplayRows;
 @group(0) @binding(8) var shown: texture_2d<f32>;
+// Where the halo has no more than so much light per square pixel, pixels, by the logarithm of that light.
+@group(0) @binding(9) var reaches: texture_2d<f32>;
 
 // A point begins to show at this share of the threshold, a tenth of a magnitude below.
 const GLIMPSED: f32 = 0.91;
 // A halo ends where it is less than this share of a code.
 const LEAST_CODE: f32 = 0.2;
+// The columns of the table of reaches; src/render/eye.rs knows them too.
+const LEAST_LOG2: f32 = -48.0;
+const REACHES_PER_OCTAVE: f32 = 2.0;
+const REACHES: f32 = 129.0;
 // The code of a deep picture, that has none, is taken to be this.
 const DEEP_CODE: f32 = 1e-5;
 
@@ -57,13 +63,17 @@ fn vertex(point: Point, @builtin(vertex_index) index: u32) -> Corner {
         + retina.spread * textureSampleLevel(spread_around, between, place, 0.0);
     let seen = at_light(visible, between, background);
     let share = smoothstep(GLIMPSED, 1.0, point.illuminance / seen.y);
+    if share <= 0.0 {
+        // Nowhere: four corners in one place.
+        return Corner(vec4f(0.0, 0.0, 0.0, 1.0), centre, vec3f(0.0), vec3f(0.0), vec2f(0.0));
+    }
     let strength = point.illuminance * seen.x * share;
     let brightest = strength * max(point.colour.r, max(point.colour.g, point.colour.b));
-    // The pixels whose centres lie within two pixels of the point; none of a point that is not seen.
+    // The pixels whose centres lie within two pixels of the point at least.
     let sent = sent_of(display.red, display.green, display.blue, seen_of(shown, between, background).xyz);
     let code = code_sizes(saturate(sent));
     let least = LEAST_CODE * max(max(code.r, code.g), max(code.b, DEEP_CODE));
-    let reach = select(0.0, max(halo_reach(least / brightest), 2.0), share > 0.0);
+    let reach = max(halo_reach(least / brightest), 2.0);
     let first = floor(centre - 0.5) + 1.0 - ceil(reach);
     let extent = 2.0 * ceil(reach);
     let corner = (first + extent * vec2f(f32(index & 1u), f32(index >> 1u))) / retina.size_px;
@@ -78,15 +88,8 @@ fn halo_row(row: f32) -> f32 {
 
 // Given light per square pixel, the distance at which the halo has no more, pixels.
 fn halo_reach(least: f32) -> f32 {
-    var low = 0.0;
-    var high = halo.rows - 1.0;
-    for (var step = 0; step < 9; step++) {
-        let middle = 0.5 * (low + high);
-        let is_brighter = halo_row(middle) > least;
-        low = select(low, middle, is_brighter);
-        high = select(middle, high, is_brighter);
-    }
-    return exp2(high / halo.rows_per_octave + halo.first_log2_px);
+    let column = clamp((log2(least) - LEAST_LOG2) * REACHES_PER_OCTAVE, 0.0, REACHES - 1.0);
+    return textureSampleLevel(reaches, between, vec2f((column + 0.5) / REACHES, 0.5), 0.0).x;
 }
 
 @fragment

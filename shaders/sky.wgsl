@@ -14,11 +14,25 @@ fn corner_px(tile: vec4u, index: u32) -> vec2f {
     return vec2f(select(tile.xy, tile.zw, vec2(index & 1u, index >> 1u) == vec2(1u)));
 }
 
+// Given a point in pixels and the direction seen there, its altitude.
+fn altitude_at(pixel: vec2f, dir: vec3f) -> Radians {
+    let is_narrow = abs(sky.over_right) + abs(sky.over_down) > 0.0;
+    return select(altitude_of(dir), sky.horizon + 2.0 * sky.half_pixel * over_px(pixel), is_narrow);
+}
+
+// Given a point in pixels of a narrow picture, how far it is over the horizon, in pixels.
+fn over_px(pixel: vec2f) -> Pixels {
+    let off = pixel - 0.5 * camera.size_px;
+    return sky.middle_over + sky.over_right * off.x + sky.over_down * off.y;
+}
+
 // Given a corner that smooth tiles share, in pixels.
 @vertex
 fn smooth_vertex(@location(0) corner: vec2u) -> Corner {
     let pixel = vec2f(corner);
-    let light = skylight(apparent_from_pixel(camera, pixel).dir);
+    let dir = apparent_from_pixel(camera, pixel).dir;
+    let altitude = altitude_at(pixel, dir);
+    let light = light_of_side(dir, altitude, altitude >= sky.horizon);
     return Corner(clip_from_pixel(camera, pixel), light);
 }
 
@@ -41,8 +55,10 @@ fn exact_fragment(@builtin(position) position: vec4f) -> @location(0) LuminanceX
     if !sight.exists {
         return vec4f(0.0);
     }
-    let altitude = altitude_of(sight.dir);
-    let over = clamp(0.5 + 0.5 * (altitude - sky.horizon) / sky.half_pixel, 0.0, 1.0);
+    let altitude = altitude_at(position.xy, sight.dir);
+    let is_narrow = abs(sky.over_right) + abs(sky.over_down) > 0.0;
+    let height = select(0.5 * (altitude - sky.horizon) / sky.half_pixel, over_px(position.xy), is_narrow);
+    let over = clamp(0.5 + height, 0.0, 1.0);
     if over > 0.0 && over < 1.0 {
         let ground = light_of_side(sight.dir, altitude, false);
         return mix(ground, light_of_side(sight.dir, altitude, true), over);

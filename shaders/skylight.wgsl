@@ -24,6 +24,11 @@ struct Sky {
     half_pixel: Radians,
     // Columns of the dark sky.
     dark_azimuths: u32,
+    // On a narrow picture, how high its middle is over the horizon and what a pixel gains to the right and
+    // down, pixels: small numbers keep their digits. Zero on others.
+    middle_over: f32,
+    over_right: f32,
+    over_down: f32,
 }
 
 @group(0) @binding(1) var<storage, read> sky: Sky;

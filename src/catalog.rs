@@ -17,9 +17,11 @@ use crate::units::Magnitude;
 
 mod bsc5;
 mod colour;
+mod constellations;
 mod csv;
 mod hipparcos;
 pub mod layered;
+mod messier;
 pub mod milky_way;
 pub mod moon;
 mod moon_features;
@@ -30,7 +32,9 @@ mod seal;
 pub mod stars;
 
 pub use colour::{Luminosity, spectral_class};
+pub use constellations::{Constellation, ConstellationId, Corner, FigureStar, constellations};
 pub use hipparcos::Astrometry;
+pub use messier::{MessierObject, messier, messier_objects};
 pub use milky_way::MilkyWay;
 pub use moon::{HapkeCell, MoonHapke, MoonMap, MoonRelief};
 pub use moon_features::MoonFeature;
@@ -61,8 +65,13 @@ pub struct Star {
     pub hr: u16,
     /// Number in the Hipparcos catalogue, if it has one.
     pub hip: Option<u32>,
-    /// Bayer or Flamsteed designation as people write it, such as `α CMa` or `61 Cyg`.
+    /// Number in the Henry Draper catalogue.
+    pub hd: Option<u32>,
+    /// Bayer designation as people write it, such as `α CMa`; Flamsteed's, such as `61 Cyg`, if there is
+    /// no letter.
     pub designation: Option<String>,
+    /// Flamsteed designation, whether there is a letter too or not: `9 CMa`.
+    pub flamsteed: Option<String>,
     /// Name approved by the IAU, such as `Sirius`.
     pub name: Option<String>,
     /// Direction at epoch and equinox J2000.0 (FK5, which is ICRS within 0.1 arcsecond). The

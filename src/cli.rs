@@ -15,7 +15,6 @@ pub mod eye;
 mod look;
 mod night_glow;
 mod objects;
-mod outputs;
 pub mod photo;
 mod place;
 mod progress;
@@ -24,6 +23,8 @@ mod render;
 mod stage;
 mod stats;
 mod summary;
+#[cfg(feature = "app")]
+mod window;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -40,10 +41,14 @@ use error::CliError;
 
 /// The night sky as it would really look: where everything is, and how bright.
 #[derive(Debug, Parser)]
-#[command(name = "nocturne", version, about, arg_required_else_help = true)]
+#[command(name = "nocturne", version, about, arg_required_else_help = cfg!(not(feature = "app")))]
+#[command(args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+    #[cfg(feature = "app")]
+    #[command(flatten)]
+    window: window::WindowArgs,
     /// Folder of the catalogues, if it is not where the program looks by itself
     #[arg(long, global = true, value_name = "DIR")]
     catalogs: Option<PathBuf>,
@@ -143,16 +148,22 @@ fn fail(error: &CliError) -> ExitCode {
 }
 
 fn dispatch(cli: &Cli, out: &mut impl Write) -> Result<(), CliError> {
+    let Some(command) = &cli.command else {
+        #[cfg(feature = "app")]
+        return window::run(&cli.window, cli.catalogs.as_deref());
+        #[cfg(not(feature = "app"))]
+        return Ok(());
+    };
     #[cfg(feature = "gpu")]
-    if let Command::Adapter = cli.command {
+    if let Command::Adapter = command {
         writeln!(out, "{}", crate::render::Renderer::new()?.adapter())?;
         return Ok(());
     }
-    if let Command::Atmosphere(args) = &cli.command {
+    if let Command::Atmosphere(args) = command {
         return atmosphere::run(args, out);
     }
     let catalogs = Catalogs::locate(cli.catalogs.as_deref())?;
-    match &cli.command {
+    match command {
         Command::Render(args) => render::run(args, &catalogs, out),
         Command::Place(args) => place::run(args, &catalogs, out),
         Command::Objects(args) => objects::run(args, &catalogs, out),

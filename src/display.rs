@@ -10,7 +10,9 @@
 //! of the same luminance until it is zero. A channel above one: a part of what is shown has moved
 //! to the grey of its luminance (white, when it is brighter than that), the square of that luminance, and
 //! the rest has been dimmed. So a
-//! bright orange light becomes paler and stays orange.
+//! bright orange light becomes paler and stays orange. The part that moves begins to when a channel has
+//! used more than half of the room between that grey and white, and never uses all of it: a bright blue sky gets paler
+//! before its blue is all there is.
 //!
 //! *Dithering* adds noise of a triangular density, two codes wide, before rounding: neither the mean nor the
 //! variance of what is shown then depends on where between two codes it lies (Lipshitz, Wannamaker
@@ -196,6 +198,9 @@ pub fn srgb_curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// Share of the room between grey and white that a channel uses as it is.
+const FREE: f64 = 0.6;
+
 /// A colour within the gamut, and with its hue, of any linear RGB and its luminance.
 pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     let grey = luminance.max(0.0);
@@ -205,15 +210,18 @@ pub fn within_gamut(rgb: DVec3, luminance: f64) -> DVec3 {
     // Rounding leaves the one that should be zero a little below.
     let positive = (DVec3::splat(grey) + (rgb - grey) * keep).max(DVec3::ZERO);
     let high = positive.max_element();
-    if high <= 1.0 {
+    let white = grey.min(1.0);
+    let (room, used) = (1.0 - white, high - white);
+    if used <= FREE * room {
         return positive;
     }
-    let white = grey.min(1.0);
-    let keep = (1.0 - white) / (high - white);
+    // Beyond, ever less of what remains, smoothly.
+    let left = (1.0 - FREE).powi(2) * room / (used + (1.0 - 2.0 * FREE) * room);
+    let keep = room / used * (1.0 - left);
     let paler = DVec3::splat(white) + (positive - grey) * keep;
     // The brighter it is, the more of it goes to white.
     let share = white * white;
-    paler * share + positive / high * (1.0 - share)
+    paler * share + positive / high.max(1.0) * (1.0 - share)
 }
 
 /// Noise of a pixel, 0 up to 1, spread evenly over any few neighbours: the sequence R2.

@@ -18,7 +18,6 @@
 
 pub mod acuity;
 pub mod adaptation;
-pub mod extended_threshold;
 pub mod foveal;
 pub mod glare;
 pub mod histogram_adjustment;

@@ -40,6 +40,7 @@ pub mod units;
 
 // What takes long: beside what is seen, and once.
 pub mod background;
+pub mod memory;
 pub mod store;
 
 // When, where, with what eyes and from what data.
@@ -67,10 +68,15 @@ pub mod plan;
 #[cfg(feature = "gpu")]
 pub mod render;
 pub mod scene;
+pub mod studio;
 
-// Files, and the program.
+// Files, what makes them, and the program.
+#[cfg(feature = "app")]
+pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod export;
+#[cfg(feature = "cli")]
+pub mod job;
 #[cfg(feature = "cli")]
 pub mod overlay;

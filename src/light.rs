@@ -7,6 +7,7 @@
 
 pub mod airglow;
 pub mod belts;
+pub mod clear_view;
 pub mod corona;
 pub mod dark_sky;
 pub mod disc_light;

@@ -12,5 +12,6 @@ fn main() -> ExitCode {
         // SAFETY: no other thread runs yet that could read the environment.
         unsafe { std::env::set_var(SELECTOR, "1") };
     }
+    nocturne::memory::give_back();
     nocturne::cli::run()
 }

@@ -11,9 +11,12 @@ pub mod dark_sky;
 pub mod data;
 pub mod disc;
 pub mod globe;
+mod kept_dark;
+mod kept_source;
 pub mod lay;
 pub mod ledger;
 pub mod milky_way;
+pub mod near;
 pub mod planet;
 pub mod skylight;
 

@@ -8,6 +8,7 @@ pub mod gpu;
 pub mod picture;
 pub mod shaders;
 pub mod uniforms;
+pub mod window;
 
 mod discs;
 mod eye;
@@ -23,7 +24,7 @@ mod spikes;
 mod splats;
 mod target;
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use crate::camera::Camera;
 use crate::display::Display;
@@ -53,6 +54,8 @@ pub struct Renderer {
     /// Made when somebody first looks.
     eye: OnceLock<eye::EyePass>,
     photo: OnceLock<photo::PhotoPass>,
+    /// The texture of the last frame of a window.
+    frame: Mutex<Option<wgpu::Texture>>,
 }
 
 /// A drawn frame and what it cost.
@@ -97,6 +100,15 @@ pub struct Looked {
     pub times: Vec<PassTime>,
 }
 
+/// A picture that stays on the device, for a window.
+pub struct OnDevice {
+    /// Codes of red, green and blue for the display of the look, 8 bits each.
+    pub codes: wgpu::TextureView,
+    pub made: Made,
+    /// By pass, those of the frame first; empty when the adapter keeps no time.
+    pub times: Vec<PassTime>,
+}
+
 impl Renderer {
     /// Finds an adapter and makes the pipelines.
     pub fn new() -> Result<Renderer, GpuError> {
@@ -112,7 +124,13 @@ impl Renderer {
             splats,
             eye: OnceLock::new(),
             photo: OnceLock::new(),
+            frame: Mutex::new(None),
         })
+    }
+
+    /// The device that it draws on, for a window that shares it.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
     }
 
     /// What draws: the adapter's name and driver.
@@ -127,12 +145,7 @@ impl Renderer {
 
     /// The same, the sky drawn in a way that is given.
     pub fn frame_with(&self, plan: &FramePlan, detail: SkyDetail) -> Result<Rendered, GpuError> {
-        let mut frame = Target::new(&self.gpu, &plan.camera)?;
-        self.extended(&mut frame, plan, detail);
-        self.splats.draw(&mut frame, &plan.splats, &plan.camera);
-        let finished = frame.finish()?;
-        let frame = target::read_back(&self.gpu, &finished.frame)?;
-        Ok(Rendered { frame, times: finished.times })
+        self.rendered(plan, detail, &[])
     }
 
     /// The frame as it lies on the sensor of a camera, with spikes of its aperture.
@@ -141,11 +154,21 @@ impl Renderer {
         plan: &FramePlan,
         spikes: &[Spike],
     ) -> Result<Rendered, GpuError> {
+        self.rendered(plan, SkyDetail::Tiles, spikes)
+    }
+
+    fn rendered(
+        &self,
+        plan: &FramePlan,
+        detail: SkyDetail,
+        spikes: &[Spike],
+    ) -> Result<Rendered, GpuError> {
         let mut frame = Target::new(&self.gpu, &plan.camera)?;
-        self.extended(&mut frame, plan, SkyDetail::Tiles);
+        self.extended(&mut frame, plan, detail);
         self.splats.draw(&mut frame, &plan.splats, &plan.camera);
-        let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
-        pass.spikes(&mut frame, spikes);
+        if !spikes.is_empty() {
+            self.photo_pass().spikes(&mut frame, spikes);
+        }
         let finished = frame.finish()?;
         let frame = target::read_back(&self.gpu, &finished.frame)?;
         Ok(Rendered { frame, times: finished.times })
@@ -161,6 +184,19 @@ impl Renderer {
         let mut frame = Target::new(&self.gpu, &plan.camera)?;
         self.extended(&mut frame, plan, SkyDetail::Tiles);
         self.developed(frame, &plan.camera, &plan.splats, look, wants_frame)
+    }
+
+    /// Draws the frame and makes a picture of it in codes, which stays on the device.
+    pub fn show(&self, plan: &FramePlan, look: &Look) -> Result<OnDevice, GpuError> {
+        // A poisoned lock holds a whole texture or none.
+        let mut kept = self.frame.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut frame = Target::on(&self.gpu, &plan.camera, kept.take())?;
+        self.extended(&mut frame, plan, SkyDetail::Tiles);
+        let look = Look { depth: Depth::Codes, ..*look };
+        let (made, _, picture) = self.made(&mut frame, &plan.camera, &plan.splats, &look, false)?;
+        let finished = frame.finish()?;
+        *kept = Some(finished.frame);
+        Ok(OnDevice { codes: picture.into_codes(), made, times: finished.times })
     }
 
     /// Makes a picture of a frame without points of light, and of points of light.
@@ -184,8 +220,15 @@ impl Renderer {
         eye: &Eye,
     ) -> Result<HdrFrame, GpuError> {
         let mut target = Target::of_frame(&self.gpu, camera, frame)?;
-        let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
-        pass.retina(&mut target, eye, camera)
+        self.eye_pass().retina(&mut target, eye, camera)
+    }
+
+    fn eye_pass(&self) -> &eye::EyePass {
+        self.eye.get_or_init(|| eye::EyePass::new(&self.gpu))
+    }
+
+    fn photo_pass(&self) -> &photo::PhotoPass {
+        self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu))
     }
 
     fn developed(
@@ -196,52 +239,65 @@ impl Renderer {
         look: &Look,
         wants_frame: bool,
     ) -> Result<Looked, GpuError> {
-        let size_px = [camera.width_px, camera.height_px];
-        let picture = PictureTarget::new(&self.gpu, size_px, look.depth, look.display.space);
-        let splats = |frame: &mut Target| self.splats.draw(frame, points, camera);
-        let mut absolute = None;
-        let made = match look.viewer {
-            Viewer::Eye(eye) => {
-                let pass = self.eye.get_or_init(|| eye::EyePass::new(&self.gpu));
-                let (in_frame, apart): (Vec<Splat>, Vec<Splat>) =
-                    points.iter().partition(|point| point.is_of_disc || eye.sees_stars_in_frame());
-                self.splats.draw(&mut frame, &in_frame, camera);
-                let scene = eye::Scene { eye, display: look.display, camera, points: &apart };
-                let seeing = pass.picture(&mut frame, &scene, &picture)?;
-                if wants_frame {
-                    self.splats.draw(&mut frame, &apart, camera);
-                }
-                Made::Seen(Box::new(seeing))
-            }
-            Viewer::Photo(photo) => {
-                let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
-                splats(&mut frame);
-                if wants_frame {
-                    // What the lens adds is no light of the sky.
-                    absolute = Some(frame.read()?);
-                }
-                let exposure = pass.expose(&mut frame, photo, camera)?;
-                let spikes = photo::spikes(photo, &exposure, camera, points);
-                if !spikes.lines.is_empty() {
-                    self.splats.draw(&mut frame, &spikes.taken, camera);
-                    pass.spikes(&mut frame, &spikes.lines);
-                }
-                pass.picture(&mut frame, &exposure, look.display, &picture);
-                Made::Exposed(Box::new(exposure))
-            }
-            Viewer::Exposure(exposure) => {
-                let pass = self.photo.get_or_init(|| photo::PhotoPass::new(&self.gpu));
-                splats(&mut frame);
-                pass.picture(&mut frame, exposure, look.display, &picture);
-                Made::Exposed(Box::new(*exposure))
-            }
-        };
+        let (made, mut absolute, picture) =
+            self.made(&mut frame, camera, points, look, wants_frame)?;
         let finished = frame.finish()?;
         if wants_frame && absolute.is_none() {
             absolute = Some(target::read_back(&self.gpu, &finished.frame)?);
         }
         let picture = picture.read(&self.gpu)?;
         Ok(Looked { picture, made, frame: absolute, times: finished.times })
+    }
+
+    /// Makes the picture on the device; the frame comes back where the viewer adds to it.
+    fn made(
+        &self,
+        frame: &mut Target,
+        camera: &Camera,
+        points: &[Splat],
+        look: &Look,
+        wants_frame: bool,
+    ) -> Result<(Made, Option<HdrFrame>, PictureTarget), GpuError> {
+        let size_px = [camera.width_px, camera.height_px];
+        let picture = PictureTarget::new(&self.gpu, size_px, look.depth, look.display.space);
+        let splats = |frame: &mut Target| self.splats.draw(frame, points, camera);
+        let mut absolute = None;
+        let made = match look.viewer {
+            Viewer::Eye(eye) => {
+                let (in_frame, apart): (Vec<Splat>, Vec<Splat>) =
+                    points.iter().partition(|point| point.is_of_disc || eye.sees_stars_in_frame());
+                self.splats.draw(frame, &in_frame, camera);
+                let scene = eye::Scene { eye, display: look.display, camera, points: &apart };
+                let seeing = self.eye_pass().picture(frame, &scene, &picture)?;
+                if wants_frame {
+                    self.splats.draw(frame, &apart, camera);
+                }
+                Made::Seen(Box::new(seeing))
+            }
+            Viewer::Photo(photo) => {
+                let pass = self.photo_pass();
+                splats(frame);
+                if wants_frame {
+                    // What the lens adds is no light of the sky.
+                    absolute = Some(frame.read()?);
+                }
+                let exposure = pass.expose(frame, photo, camera)?;
+                let spikes = photo::spikes(photo, &exposure, camera, points);
+                if !spikes.lines.is_empty() {
+                    self.splats.draw(frame, &spikes.taken, camera);
+                    pass.spikes(frame, &spikes.lines);
+                }
+                pass.picture(frame, &exposure, look.display, &picture);
+                Made::Exposed(Box::new(exposure))
+            }
+            Viewer::Exposure(exposure) => {
+                let pass = self.photo_pass();
+                splats(frame);
+                pass.picture(frame, exposure, look.display, &picture);
+                Made::Exposed(Box::new(*exposure))
+            }
+        };
+        Ok((made, absolute, picture))
     }
 
     /// The light of all that is no point.
@@ -253,7 +309,7 @@ impl Renderer {
             pass.draw(frame, milky_way, camera);
         }
         for disc in &plan.discs {
-            self.discs.draw(frame, disc);
+            self.discs.draw(frame, disc, camera);
         }
     }
 

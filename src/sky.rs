@@ -1,9 +1,13 @@
 //! Where everything stands in the sky of one place at one instant: directions, distances, phases
 //! and sizes. Not how bright, and not refracted.
 
+pub mod constellation;
+pub mod finder;
 mod moon_surface;
+mod names;
 mod satellites;
 pub mod star_index;
+mod target;
 
 use crate::catalog::Star;
 use crate::ephemeris::apparent::{ApparentPlace, Observer};
@@ -19,6 +23,7 @@ use crate::units::Angle;
 
 pub use moon_surface::SurfacePoint;
 pub use satellites::SatelliteState;
+pub use target::{Target, UnknownTarget};
 
 /// The sky of one place at one instant, geometric: what stands there without air.
 #[derive(Debug, Clone)]

@@ -43,7 +43,9 @@ fn all_stars_of_the_bright_star_catalogue_are_there() {
         assert!((star.dir_j2000.vector().length() - 1.0).abs() < 1e-15, "HR {}", star.hr);
     }
     assert_eq!(stars.iter().filter(|star| star.hip.is_some()).count(), 9073);
+    assert_eq!(stars.iter().filter(|star| star.hd.is_some()).count(), 9096);
     assert_eq!(stars.iter().filter(|star| star.designation.is_some()).count(), 3143);
+    assert_eq!(stars.iter().filter(|star| star.flamsteed.is_some()).count(), 2554);
 }
 
 #[test]
@@ -52,6 +54,7 @@ fn sirius_is_as_the_catalogue_has_it() {
     let sirius = by_hr(&stars, 2491);
     assert_eq!(sirius.hip, Some(32349));
     assert_eq!(sirius.name.as_deref(), Some("Sirius"));
+    assert_eq!((sirius.hd, sirius.flamsteed.as_deref()), (Some(48915), Some("9 CMa")));
     assert_eq!(sirius.designation.as_deref(), Some("α CMa"));
     assert_eq!((sirius.magnitude.0, sirius.b_v), (-1.46, 0.0));
     assert_eq!(sirius.spectral_type, "A1Vm");

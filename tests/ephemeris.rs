@@ -253,7 +253,9 @@ fn star(name: &str) -> Option<Star> {
     Some(Star {
         hr: 0,
         hip: None,
+        hd: None,
         designation: None,
+        flamsteed: None,
         name: Some(name.into()),
         dir_j2000: Dir::from_spherical(Angle::from_deg(ra_deg), Angle::from_deg(dec_deg)),
         proper_motion_ra_arcsec_yr: pm_ra,

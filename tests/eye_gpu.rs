@@ -143,7 +143,7 @@ fn smooth_skies_are_the_twins(renderer: &Renderer) -> Result<(), Failed> {
             };
             let frame = frame_of(width, height, at);
             let off = off_codes(renderer, &frame, &camera(width, height, 60.0), &keen())?;
-            let within = if width > 64 { 4.0 } else { 5.0 };
+            let within = if width > 2 { 2.0 } else { 4.0 };
             check(off < within, || {
                 format!("1e{exponent} {colour:?} {width}x{height}: {off} codes")
             })?;
@@ -396,9 +396,7 @@ fn from_noon_to_night(renderer: &Renderer) -> Result<(), Failed> {
             .flatten()
             .fold([255, 0], |[low, high]: [u8; 2], code| [low.min(*code), high.max(*code)]);
         eprintln!("{middle:.2e} cd/m2: {now:.4}, codes {ends:?}");
-        // Green is most of the luminance; the blue of the brightest of a blue sky may be all there is.
-        let green = coded.pixels().iter().map(|code| code[1]).max();
-        check(ends[0] > 0 && green < Some(255), || format!("{middle} cd/m2: codes {ends:?}"))?;
+        check(ends[0] > 0 && ends[1] < 255, || format!("{middle} cd/m2: codes {ends:?}"))?;
         for x in 1..width {
             // Columns in the mean: without rounding none is darker than the one before, with it by no more
             // than dithering leaves of 180 pixels.

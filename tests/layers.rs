@@ -9,8 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Lowest first. `light::spectrum` stands below the rest of its module: the air is told in spectra.
-const RANKS: [&[&str]; 11] = [
-    &["units", "frame", "image", "store", "background"],
+const RANKS: [&[&str]; 14] = [
+    &["units", "frame", "image", "store", "background", "memory"],
     &["time", "place", "catalog", "camera"],
     &["ephemeris"],
     &["sky", "almanac", "light::spectrum"],
@@ -19,17 +19,20 @@ const RANKS: [&[&str]; 11] = [
     &["scene"],
     &["plan"],
     &["render"],
+    &["studio"],
     &["export", "overlay"],
+    &["job"],
+    &["app"],
     &["cli", "bin"],
 ];
 
 /// Words that only some modules may use.
 const DOORS: [(&str, &[&str]); 5] = [
-    ("wgpu", &["render"]),
+    ("wgpu", &["render", "app"]),
     ("clap", &["cli", "bin"]),
-    ("fs::read", &["store", "catalog", "cli", "bin", "export"]),
+    ("fs::read", &["store", "memory", "catalog", "cli", "bin", "export"]),
     ("File::open", &["store", "catalog", "cli", "bin", "export"]),
-    ("read_to_string", &["catalog", "cli", "bin", "export"]),
+    ("read_to_string", &["memory", "catalog", "app", "cli", "bin", "export"]),
 ];
 
 #[test]

@@ -352,6 +352,8 @@ fn cluster(centre: [f64; 2], faintest: f64) -> Vec<Star> {
 /// 13.5; between, Schaefer's limit is brighter, by 0.9 at most, at 15.5: his thresholds of cones are poor where they
 /// take over, at 1500 nanolamberts. There his limit would be met with a field factor of 3. So late nautical
 /// twilight (the Sun at -11) is within 0.4 of both, its brighter part and the sky of the full Moon are 0.7 from his.
+/// Crumey 2014 himself compares the two, and finds Hecht's formula, as Schaefer uses it, "of limited accuracy" for
+/// points; his field factor stands for observer and task, not for the light. So his curve is kept.
 fn twilight_and_moonlight(renderer: &Renderer) -> Result<(), Failed> {
     let scene = |utc: &str, latitude: f64, altitude: f64| {
         let text = SCENE

@@ -287,7 +287,9 @@ fn stars() -> impl Strategy<Value = Vec<Star>> {
         |(dir_j2000, (east, north, parallax_arcsec, radial_velocity_km_s), magnitude, b_v)| Star {
             hr: 1,
             hip: None,
+            hd: None,
             designation: None,
+            flamsteed: None,
             name: None,
             dir_j2000,
             proper_motion_ra_arcsec_yr: east,

@@ -3,14 +3,15 @@
 
 use std::mem::offset_of;
 
+use nocturne::eye::light_table;
 use nocturne::plan::globe::EXTENT;
 use nocturne::plan::globe::near_side::EDGE;
 use nocturne::plan::globe::shadows::Shadows;
 use nocturne::render::shaders::{LIBRARY, SHADERS, assembled};
 use nocturne::render::uniforms::{
     CameraUniform, DiscBandUniform, DiscUniform, DisplayUniform, FlareUniform, GlobeUniform,
-    GrainUniform, HaloUniform, LevelUniform, MeshBandUniform, PhotoUniform, PlanetUniform,
-    PyramidStepUniform, RetinaUniform, RingUniform, SkyUniform,
+    GrainUniform, HaloUniform, LevelUniform, MeshBandUniform, NearBandUniform, NearUniform,
+    PhotoUniform, PlanetUniform, PyramidStepUniform, RetinaUniform, RingUniform, SkyUniform,
 };
 
 fn parsed(name: &str, source: &str) -> naga::Module {
@@ -61,7 +62,20 @@ fn uniforms_have_one_layout_on_both_sides() {
         sky,
         "Sky",
         SkyUniform,
-        [sources, shines, azimuths, above, below, phases, horizon, half_pixel, dark_azimuths]
+        [
+            sources,
+            shines,
+            azimuths,
+            above,
+            below,
+            phases,
+            horizon,
+            half_pixel,
+            dark_azimuths,
+            middle_over,
+            over_right,
+            over_down
+        ]
     );
 
     let pyramid = parsed("pyramid", &assembled("pyramid"));
@@ -113,6 +127,44 @@ fn uniforms_have_one_layout_on_both_sides() {
         [body_from_picture, body_from_sun, observer, sun, earth, alike]
     );
     same_layout!(globe, "MeshBand", MeshBandUniform, [first, last, rings, sectors, is_skirt]);
+    let near = parsed("near-discs", &assembled("near-discs"));
+    same_layout!(
+        near,
+        "NearBand",
+        NearBandUniform,
+        [
+            at,
+            over,
+            beside,
+            right,
+            down,
+            bend_xx,
+            bend_xy,
+            bend_yy,
+            from_occluder,
+            texel,
+            texel_part,
+            from_first
+        ]
+    );
+    same_layout!(
+        near,
+        "Near",
+        NearUniform,
+        [
+            anchor_px,
+            place,
+            pixel,
+            place_gain,
+            place_bend,
+            texels,
+            outline_steps,
+            radius,
+            first,
+            shift,
+            outline
+        ]
+    );
     let discs = parsed("discs", &assembled("discs"));
     same_layout!(
         discs,
@@ -164,24 +216,46 @@ fn uniforms_have_one_layout_on_both_sides() {
 #[test]
 fn numbers_of_the_globe_are_those_of_the_plan() {
     let module = parsed("globe", &assembled("globe"));
-    let said = |name: &str| {
-        let found = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
-        let (_, constant) = found.unwrap_or_else(|| panic!("no constant {name}"));
-        match module.global_expressions[constant.init] {
-            naga::Expression::Literal(naga::Literal::F32(value)) => value,
-            ref other => panic!("{name} is {other:?}"),
-        }
-    };
     for (name, meant) in [
         ("EXTENT", EXTENT),
         ("MAP_EDGE", EDGE),
         ("COS_FIRST_SHADOW", Shadows::FIRST.cos()),
         ("COS_LAST_SHADOW", Shadows::LAST.cos()),
     ] {
-        assert!(
-            (f64::from(said(name)) - meant).abs() < 1e-7,
-            "{name}: {}, not {meant}",
-            said(name)
-        );
+        let said = said(&module, name);
+        assert!((said - meant).abs() < 1e-7, "{name}: {said}, not {meant}");
+    }
+}
+
+#[test]
+fn numbers_of_the_tables_over_light_are_those_of_the_eye() {
+    let module = parsed("eye", &assembled("eye"));
+    for (name, meant) in [
+        ("LOWEST_LOG2", light_table::LOWEST_LOG2),
+        ("COLUMNS_PER_OCTAVE", light_table::COLUMNS_PER_OCTAVE),
+        ("COLUMNS", light_table::COLUMNS as f64),
+        ("LOWEST_RATIO_LOG2", light_table::LOWEST_RATIO_LOG2),
+        ("ROWS_PER_OCTAVE", light_table::ROWS_PER_OCTAVE),
+        ("ROWS", light_table::ROWS as f64),
+        ("HIGHEST_RATIO", light_table::scotopic_ratio(light_table::ROWS - 1)),
+        ("DARKEST", light_table::DARKEST_CD_M2),
+    ] {
+        assert_eq!(said(&module, name) as f32, meant as f32, "{name}");
+    }
+}
+
+/// What a constant of a shader is.
+fn said(module: &naga::Module, name: &str) -> f64 {
+    let found = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
+    let (_, constant) = found.unwrap_or_else(|| panic!("no constant {name}"));
+    match module.global_expressions[constant.init] {
+        naga::Expression::Literal(naga::Literal::F32(value)) => value.into(),
+        naga::Expression::Unary { op: naga::UnaryOperator::Negate, expr } => {
+            match module.global_expressions[expr] {
+                naga::Expression::Literal(naga::Literal::F32(value)) => -f64::from(value),
+                ref other => panic!("{name} is {other:?}"),
+            }
+        }
+        ref other => panic!("{name} is {other:?}"),
     }
 }

@@ -12,22 +12,27 @@ override IS_ENCODED: bool = true;
 // The highest code, to which codes are dithered and rounded; 0: neither.
 override CODE_STEPS: f32 = 255.0;
 
+// Share of the room between grey and white that a channel uses as it is.
+const FREE: f32 = 0.6;
+
 // Given linear RGB and its luminance, a colour within the gamut that keeps its hue.
 fn gamut(rgb: vec3f, luminance: f32) -> vec3f {
     let grey = max(luminance, 0.0);
     let low = min(min(rgb.r, rgb.g), min(rgb.b, 0.0));
-    let kept = grey / max(grey - low, 1e-37);
-    let positive = grey + (rgb - grey) * kept;
+    let within = grey / max(grey - low, 1e-37);
+    let positive = grey + (rgb - grey) * within;
     let high = max(max(positive.r, positive.g), positive.b);
-    // A part of it moved to the grey of its luminance, or to white, the more the brighter it is, the rest
-    // dimmed; what is divided by zero is within the gamut.
+    // A part of it moved to the grey of its luminance, or to white, the more the brighter it is, once it uses
+    // more of the room there than is free, the rest dimmed; what is divided by zero is within the gamut.
     let white = min(grey, 1.0);
     let share = white * white;
-    let both = 1.0 / (high * (high - white));
-    let paler = share * (1.0 - white) * high * both;
-    let dimmed = (1.0 - share) * (high - white) * both;
-    let brought = positive * (paler + dimmed) + (share * white - grey * paler);
-    return select(positive, brought, high > 1.0);
+    let room = 1.0 - white;
+    let used = high - white;
+    let left = (1.0 - FREE) * (1.0 - FREE) * room / (used + (1.0 - 2.0 * FREE) * room);
+    let kept = share * (room / used) * (1.0 - left);
+    let dimmed = (1.0 - share) / max(high, 1.0);
+    let brought = positive * (kept + dimmed) + (share * white - grey * kept);
+    return select(positive, brought, used > FREE * room);
 }
 
 // The transfer curve of sRGB, of linear shares from 0 to 1: a polynomial of least maximum in the square root,

@@ -5,8 +5,9 @@ const LOWEST_LOG2: f32 = -30.0;
 const COLUMNS_PER_OCTAVE: f32 = 8.0;
 const COLUMNS: f32 = 513.0;
 const LOWEST_RATIO_LOG2: f32 = -4.0;
-const ROWS_PER_OCTAVE: f32 = 2.0;
-const ROWS: f32 = 17.0;
+const ROWS_PER_OCTAVE: f32 = 4.0;
+const ROWS: f32 = 33.0;
+const HIGHEST_RATIO: f32 = 16.0;
 const DARKEST: f32 = 1e-10;
 
 // Given a light, its column, 0 to 1 across the table.
@@ -30,8 +31,11 @@ fn level_resolved(levels: texture_2d<f32>, between: sampler, light: LuminanceXyz
 }
 
 // Given the light on the retina, what is shown of it: X, Y and Z in shares of the screen's peak.
-// The table has the share that cones give of the luminance, and the X, Y and Z that rods give.
+// The table has the luminance that cones give, and the X, Y and Z that rods give of a scotopic luminance as
+// large as the photopic one.
 fn seen_of(shown: texture_2d<f32>, between: sampler, light: LuminanceXyzv) -> vec4f {
     let by = at_light(shown, between, light);
-    return vec4f(by.x / max(light.y, DARKEST) * light.xyz + by.yzw, light.y);
+    let of_luminance = 1.0 / max(light.y, DARKEST);
+    let ratio = min(light.w * of_luminance, HIGHEST_RATIO);
+    return vec4f(by.x * of_luminance * light.xyz + ratio * by.yzw, light.y);
 }

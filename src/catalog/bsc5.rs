@@ -51,11 +51,11 @@ const GREEK: [(&str, char); 24] = [
 
 const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
-/// Bayer designation, else Flamsteed's, from the ten characters of BSC5's name field:
-/// `"  9Alp CMa"` is `α CMa`, `"   Alp2Cen"` is `α² Cen`, `" 61    Cyg"` is `61 Cyg`.
-fn designation(field: &str) -> Result<Option<String>, String> {
+/// Bayer designation, else Flamsteed's, and the number of Flamsteed, from the ten characters of BSC5's name field:
+/// `"  9Alp CMa"` is `α CMa` and 9, `"   Alp2Cen"` is `α² Cen`, `" 61    Cyg"` is `61 Cyg` and 61.
+fn designation(field: &str) -> Result<(Option<String>, Option<u8>), String> {
     if field.trim().is_empty() {
-        return Ok(None);
+        return Ok((None, None));
     }
     let wrong =
         || format!("the name field {field:?} is not a number, a letter and a constellation");
@@ -64,7 +64,11 @@ fn designation(field: &str) -> Result<Option<String>, String> {
     }
     let (number, letter) = (field[..3].trim(), &field[3..6]);
     let (index, constellation) = (field[6..7].trim(), field[7..].trim());
-    if constellation.len() != 3 || !number.bytes().all(|byte| byte.is_ascii_digit()) {
+    let flamsteed: Option<u8> = match number {
+        "" => None,
+        number => Some(number.parse().map_err(|_| wrong())?),
+    };
+    if constellation.len() != 3 || flamsteed == Some(0) {
         return Err(wrong());
     }
     if let Some((_, greek)) = GREEK.iter().find(|(written, _)| *written == letter) {
@@ -75,12 +79,14 @@ fn designation(field: &str) -> Result<Option<String>, String> {
                 SUPERSCRIPTS.get(digit).ok_or_else(wrong)?.to_string()
             }
         };
-        return Ok(Some(format!("{greek}{index} {constellation}")));
+        return Ok((Some(format!("{greek}{index} {constellation}")), flamsteed));
     }
-    if letter.trim().is_empty() && index.is_empty() && !number.is_empty() {
-        return Ok(Some(format!("{number} {constellation}")));
+    match flamsteed {
+        Some(number) if letter.trim().is_empty() && index.is_empty() => {
+            Ok((Some(format!("{number} {constellation}")), flamsteed))
+        }
+        _ => Err(wrong()),
     }
-    Err(wrong())
 }
 
 /// Names by HR number, from the list of names that the IAU approved.
@@ -147,7 +153,7 @@ pub(super) fn records(catalogue: &str, star_names: &str) -> Result<Vec<StarRecor
 
 /// One row of the catalogue; none if it has no position.
 fn record(row: &[&str]) -> Result<Option<StarRecord>, String> {
-    let (hr, hip, name, ra_deg, dec_deg) = (row[0], row[1], row[3], row[4], row[5]);
+    let (hr, hip, hd, name, ra_deg, dec_deg) = (row[0], row[1], row[2], row[3], row[4], row[5]);
     let (v, b_v, spectral_type) = (row[6], row[7], row[10].trim());
     let (motion_ra, motion_dec, parallax, radial_velocity) = (row[11], row[12], row[13], row[15]);
     if ra_deg.is_empty() || dec_deg.is_empty() {
@@ -160,9 +166,15 @@ fn record(row: &[&str]) -> Result<Option<StarRecord>, String> {
             format!("there is no B-V, and none follows from the type {spectral_type:?}")
         })?,
     };
+    let number = |field: &str, what| match field {
+        "" => Ok(None),
+        field => parse(field, what).map(Some),
+    };
+    let (designation, flamsteed) = designation(name)?;
     Ok(Some(StarRecord {
         hr: parse(hr, "HR number")?,
-        hip: if hip.is_empty() { None } else { Some(parse(hip, "HIP number")?) },
+        hip: number(hip, "HIP number")?,
+        hd: number(hd, "HD number")?,
         ra_rad: parse::<f64>(ra_deg, "right ascension")?.to_radians(),
         dec_rad: parse::<f64>(dec_deg, "declination")?.to_radians(),
         proper_motion_ra_arcsec_yr: parse(motion_ra, "proper motion")?,
@@ -174,7 +186,8 @@ fn record(row: &[&str]) -> Result<Option<StarRecord>, String> {
         v: parse(v, "V")?,
         b_v,
         b_v_estimated: measured.is_none(),
-        designation: designation(name)?,
+        designation,
+        flamsteed,
         name: None,
         spectral_type: spectral_type.to_owned(),
         variable: variable(row[18]),
@@ -216,16 +229,28 @@ mod tests {
 
     #[test]
     fn name_fields_become_designations() {
-        let read = |field| designation(field).unwrap();
-        assert_eq!(read("  9Alp CMa").unwrap(), "α CMa");
-        assert_eq!(read("   Alp2Cen").unwrap(), "α² Cen");
-        assert_eq!(read(" 61    Cyg").unwrap(), "61 Cyg");
-        assert_eq!(read(" 65Xi 1Cet").unwrap(), "ξ¹ Cet");
-        assert_eq!(read("   Mu  Cas").unwrap(), "μ Cas");
-        assert_eq!(read(" 19Tau9Eri").unwrap(), "τ⁹ Eri");
-        assert_eq!(read(""), None);
-        for wrong in ["Sirius", "  9Alb CMa", "       CMa", "  9Alp    ", "x 9Alp CMa", "αβγδε"]
-        {
+        for (field, wanted, flamsteed) in [
+            ("  9Alp CMa", "α CMa", Some(9)),
+            ("   Alp2Cen", "α² Cen", None),
+            (" 61    Cyg", "61 Cyg", Some(61)),
+            (" 65Xi 1Cet", "ξ¹ Cet", Some(65)),
+            ("   Mu  Cas", "μ Cas", None),
+            (" 19Tau9Eri", "τ⁹ Eri", Some(19)),
+            ("139    Tau", "139 Tau", Some(139)),
+        ] {
+            assert_eq!(designation(field), Ok((Some(wanted.to_owned()), flamsteed)), "{field}");
+        }
+        assert_eq!(designation(""), Ok((None, None)));
+        for wrong in [
+            "Sirius",
+            "  9Alb CMa",
+            "       CMa",
+            "  9Alp    ",
+            "x 9Alp CMa",
+            "  0Alp CMa",
+            "300    CMa",
+            "αβγδε",
+        ] {
             assert!(designation(wrong).is_err(), "{wrong}");
         }
     }
@@ -241,7 +266,8 @@ mod tests {
     #[test]
     fn a_row_becomes_a_star() {
         let sirius = row(|_| ()).unwrap().unwrap();
-        assert_eq!((sirius.hr, sirius.hip), (2491, Some(32349)));
+        assert_eq!((sirius.hr, sirius.hip, sirius.hd), (2491, Some(32349), Some(48915)));
+        assert_eq!(sirius.flamsteed, Some(9));
         assert!((sirius.ra_rad.to_degrees() - 101.287083).abs() < 1e-12);
         assert_eq!((sirius.v, sirius.b_v, sirius.b_v_estimated), (-1.46, 0.0, false));
         assert_eq!((sirius.parallax_arcsec, sirius.radial_velocity_km_s), (0.375, -8.0));

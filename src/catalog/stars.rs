@@ -21,6 +21,8 @@
 //!     86  u32+u8 name as a variable star, likewise
 //!     91  f64    distance of a companion, arcsec, -1 for none
 //!     99  f64    how much fainter it is, mag, -1 for unknown
+//!    107  u32    HD number, 0 for none
+//!    111  u8     number of Flamsteed, 0 for none; its constellation is that of the designation
 //! ```
 
 use std::collections::HashMap;
@@ -32,8 +34,8 @@ use super::{Companion, Star};
 use crate::frame::Dir;
 use crate::units::{Angle, Magnitude};
 
-pub(super) const KIND: Kind = Kind { magic: b"NOCTSTAR", version: 2 };
-const RECORD_LEN: usize = 107;
+pub(super) const KIND: Kind = Kind { magic: b"NOCTSTAR", version: 3 };
+const RECORD_LEN: usize = 112;
 /// What stands for a number that is not known.
 const UNKNOWN: f64 = -1.0;
 
@@ -52,6 +54,7 @@ const RADIAL_VELOCITY_RANGE_KM_S: RangeInclusive<f64> = -1000.0..=1000.0;
 pub struct StarRecord {
     pub hr: u16,
     pub hip: Option<u32>,
+    pub hd: Option<u32>,
     /// In `[0, 2 pi)`, J2000.0.
     pub ra_rad: f64,
     pub dec_rad: f64,
@@ -69,6 +72,8 @@ pub struct StarRecord {
     /// B-V was not measured but estimated from the spectral type.
     pub b_v_estimated: bool,
     pub designation: Option<String>,
+    /// Number of Flamsteed in the constellation of the designation.
+    pub flamsteed: Option<u8>,
     pub name: Option<String>,
     pub spectral_type: String,
     pub variable: Option<String>,
@@ -109,10 +114,18 @@ impl StarRecord {
                 within("a companion fainter by (mag)", fainter, DIFFERENCE_RANGE)?;
             }
         }
+        if self.flamsteed.is_some() && self.flamsteed_designation().is_none() {
+            return Err(format!("HR {hr} has a number of Flamsteed and no constellation"));
+        }
         if self.spectral_type.is_empty() {
             return Err(format!("HR {hr} has no spectral type"));
         }
         Ok(())
+    }
+
+    fn flamsteed_designation(&self) -> Option<String> {
+        let (_, constellation) = self.designation.as_deref()?.rsplit_once(' ')?;
+        Some(format!("{} {constellation}", self.flamsteed?))
     }
 }
 
@@ -121,6 +134,8 @@ impl From<StarRecord> for Star {
         Star {
             hr: record.hr,
             hip: record.hip,
+            hd: record.hd,
+            flamsteed: record.flamsteed_designation(),
             designation: record.designation,
             name: record.name,
             dir_j2000: Dir::from_spherical(
@@ -179,6 +194,8 @@ pub fn encode(records: &[StarRecord]) -> Result<Vec<u8>, String> {
         let difference = companion.and_then(|c| c.magnitude_difference).unwrap_or(UNKNOWN);
         payload.extend(separation.to_le_bytes());
         payload.extend(difference.to_le_bytes());
+        payload.extend(record.hd.unwrap_or(0).to_le_bytes());
+        payload.push(record.flamsteed.unwrap_or(0));
     }
     let counts = [u32_from(records.len())?, u32_from(RECORD_LEN)?, u32_from(text.bytes.len())?];
     payload.extend(text.bytes);
@@ -233,9 +250,12 @@ fn record_from_bytes(bytes: &[u8], text: &str) -> Result<StarRecord, String> {
     let (separation, magnitude_difference) = (known(), known());
     let companion =
         separation.map(|separation_arcsec| Companion { separation_arcsec, magnitude_difference });
+    let hd = u32::from_le_bytes(fields.take());
+    let [flamsteed] = fields.take();
     Ok(StarRecord {
         hr,
         hip: (hip != 0).then_some(hip),
+        hd: (hd != 0).then_some(hd),
         ra_rad,
         dec_rad,
         proper_motion_ra_arcsec_yr: motion_ra,
@@ -246,6 +266,7 @@ fn record_from_bytes(bytes: &[u8], text: &str) -> Result<StarRecord, String> {
         b_v,
         b_v_estimated,
         designation: (!designation.is_empty()).then_some(designation),
+        flamsteed: (flamsteed != 0).then_some(flamsteed),
         name: (!name.is_empty()).then_some(name),
         spectral_type,
         variable: (!variable.is_empty()).then_some(variable),
@@ -313,6 +334,7 @@ mod tests {
         let sirius = StarRecord {
             hr: 2491,
             hip: Some(32349),
+            hd: Some(48915),
             ra_rad: 1.767_8,
             dec_rad: -0.291_75,
             proper_motion_ra_arcsec_yr: -0.553,
@@ -323,6 +345,7 @@ mod tests {
             b_v: 0.0,
             b_v_estimated: false,
             designation: Some("α CMa".into()),
+            flamsteed: Some(9),
             name: Some("Sirius".into()),
             spectral_type: "A1Vm".into(),
             variable: Some("NSV 17173".into()),
@@ -334,8 +357,10 @@ mod tests {
         let plain = StarRecord {
             hr: 2492,
             hip: None,
+            hd: None,
             b_v_estimated: true,
             designation: None,
+            flamsteed: None,
             name: None,
             variable: None,
             companion: Some(Companion { separation_arcsec: 0.0, magnitude_difference: None }),
@@ -361,7 +386,7 @@ mod tests {
     #[test]
     fn impossible_values_are_refused_in_a_sealed_file_too() {
         type Spoil = fn(&mut StarRecord);
-        let spoils: [(Spoil, &str); 10] = [
+        let spoils: [(Spoil, &str); 11] = [
             (|star| star.hr = 0, "HR 0"),
             (|star| star.ra_rad = -1e-9, "right ascension"),
             (|star| star.dec_rad = f64::NAN, "declination"),
@@ -377,6 +402,7 @@ mod tests {
                 },
                 "a companion",
             ),
+            (|star| star.designation = None, "Flamsteed"),
             (|star| star.spectral_type.clear(), "spectral type"),
         ];
         for (spoil, what) in spoils {

@@ -3,6 +3,7 @@
 use clap::{Args, ValueEnum};
 
 use crate::display::{ColourSpace, Display};
+use crate::job::Bits;
 
 use super::error::CliError;
 
@@ -40,14 +41,6 @@ impl From<SpaceArg> for ColourSpace {
             SpaceArg::Linear => ColourSpace::Linear,
         }
     }
-}
-
-/// How finely a PNG tells its colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Bits {
-    #[default]
-    Eight,
-    Sixteen,
 }
 
 impl DisplayArgs {

@@ -3,6 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
+use crate::job::JobError;
+
 /// Why a command did not do what it was asked.
 #[derive(Debug)]
 pub enum CliError {
@@ -63,6 +65,19 @@ macro_rules! from_error {
             }
         })*
     };
+}
+
+impl From<JobError> for CliError {
+    fn from(error: JobError) -> Self {
+        match error {
+            JobError::Extension { .. } => CliError::Usage(format!("--output {error}")),
+            JobError::Twice { .. }
+            | JobError::NoOutput
+            | JobError::Scene(_)
+            | JobError::Ephemeris(_) => CliError::Usage(error.to_string()),
+            _ => CliError::Failure(error.to_string()),
+        }
+    }
 }
 
 from_error!(Usage:

@@ -1,27 +1,44 @@
-//! One line that says how far the work is, and how long each step took.
+//! One line that says how far the work is.
 
-use std::time::{Duration, Instant as Stopwatch};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::job::steps;
 
-/// Steps of the work and the time that each took.
+/// Positions of the line of a job.
+const PARTS: u64 = 1000;
+
+/// The line.
 pub struct Progress {
     bar: ProgressBar,
-    times: Vec<(&'static str, Duration)>,
 }
 
 impl Progress {
     /// A line on standard error, if somebody looks at it.
-    pub fn new(quiet: bool, steps: u64) -> Progress {
-        let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(steps) };
-        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}");
+    fn new(quiet: bool, total: u64, template: &str) -> Progress {
+        let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(total) };
+        let style = ProgressStyle::with_template(template);
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Progress { bar, times: Vec::new() }
+        Progress { bar }
+    }
+
+    /// A line about a job.
+    pub fn of_job(quiet: bool) -> Progress {
+        Progress::new(quiet, PARTS, "{bar:30} {percent} % {msg}")
+    }
+
+    /// How far the job is now.
+    pub fn show(&self, progress: &steps::Progress) {
+        let message = match progress.left {
+            Some(left) => format!("{}, {} to go", progress.what, HumanDuration(left)),
+            None => progress.what.clone(),
+        };
+        self.bar.set_message(message);
+        self.bar.set_position((progress.done * PARTS as f64) as u64);
     }
 
     /// A line about work that is counted in `what`, such as bytes.
     pub fn counting(quiet: bool, total: u64, what: &'static str) -> Progress {
-        let progress = Progress::new(quiet, total);
+        let progress = Progress::new(quiet, total, "{bar:30} {pos}/{len} {msg}");
         progress.bar.set_message(what);
         progress
     }
@@ -31,23 +48,8 @@ impl Progress {
         self.bar.inc(count);
     }
 
-    /// Does one step.
-    pub fn step<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
-        self.bar.set_message(name);
-        let started = Stopwatch::now();
-        let result = work();
-        self.times.push((name, started.elapsed()));
-        self.bar.inc(1);
-        result
-    }
-
     /// Takes the line away.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
-    }
-
-    /// The steps done, in order.
-    pub fn times(&self) -> &[(&'static str, Duration)] {
-        &self.times
     }
 }

@@ -7,10 +7,15 @@ use clap::{Args, ValueEnum};
 
 use crate::air::Atmosphere;
 use crate::air::classic::{ClassicModel, ClassicSky};
+use crate::background::Interrupt;
 use crate::camera::Projection;
 use crate::catalog::Catalogs;
 use crate::display::Display;
+use crate::export::describe::Description;
 use crate::eye::Eye;
+use crate::job::outputs::Outputs;
+use crate::job::steps::Steps;
+use crate::job::{Subject, Written};
 use crate::light::earth_shadow::Danjon;
 use crate::light::moon::Reflectance;
 use crate::light::night_lights::NightGlow;
@@ -24,7 +29,6 @@ use super::error::CliError;
 use super::eye::EyeArgs;
 use super::look::{self, Look};
 use super::night_glow::NightGlowArgs;
-use super::outputs::Outputs;
 use super::photo::PhotoArgs;
 use super::progress::Progress;
 use super::{atmosphere, draw, stage, stats, summary};
@@ -45,7 +49,7 @@ pub struct RenderArgs {
     /// Turn of the camera about the line of sight, degrees, clockwise [default: 0]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     roll: Option<f64>,
-    /// Field of view across the width of the picture, degrees [default: 90]
+    /// Field of view across the width of the picture, degrees, from 0.00028 (an arcsecond) [default: 90]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     fov: Option<f64>,
     /// How the sky is laid on the picture [default: stereographic]
@@ -188,10 +192,21 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     let mut scene = scene(args, catalogs)?;
     let mut setting = scene.setting()?;
     let bits = args.display.bits()?;
-    let outputs = Outputs::open(&args.output, &args.describe, &args.save_scene)?;
-    let mut progress = Progress::new(args.quiet, outputs.steps());
+    let describe_to_stdout = args.describe.as_deref() == Some(Path::new("-"));
+    let description = args.describe.as_deref().filter(|_| !describe_to_stdout);
+    let outputs = Outputs::open(&args.output, args.save_scene.as_deref(), description)?;
+    if outputs.is_empty() && !describe_to_stdout {
+        return Err(CliError::Usage(
+            "nothing to write: give --output FILE, --describe FILE or --save-scene FILE".to_owned(),
+        ));
+    }
+    let progress = Progress::of_job(args.quiet);
+    let mut tell = |reached| progress.show(&reached);
+    // Whoever stops this program ends it, and its drafts with it.
+    let interrupt = Interrupt::default();
+    let mut steps = Steps::new(&mut tell, &interrupt);
 
-    let night = progress.step("positions", || stage::night_of(&scene, &setting, catalogs))?;
+    let night = steps.step("positions", 0.1, || stage::night_of(&scene, &setting, catalogs))??;
     if let Some(Look::Object(name)) = &args.look {
         let towards = look::towards(name, &night)?;
         scene.camera.azimuth_deg = towards.azimuth().deg();
@@ -201,24 +216,25 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     // Refused before the long work.
     let classic = scene.sky.filter(|_| outputs.draws());
     let classic = classic.map(|sky| ClassicLight::of(&sky, &night)).transpose()?;
-    let drawn = match outputs.draws() {
-        true => {
-            let wanted = outputs.wanted(bits);
-            Some(draw::draw(&scene, &setting, &night, catalogs, wanted, &mut progress)?)
+    let subject = Subject { scene: &scene, setting: &setting, night: &night };
+    let mut rest = steps.part("", 0.9);
+    let written = match outputs.draws() {
+        true => draw::finish(outputs, &subject, bits, catalogs, &mut rest)?,
+        false => {
+            let paths = rest.step("writing", 1.0, || outputs.write(&subject, None))??;
+            Written { paths, drawn: None, times: rest.times().to_vec() }
         }
-        false => None,
     };
-    let written = progress.step("writing", || {
-        let picture = drawn.as_ref().map(|drawn| &drawn.picture);
-        outputs.write(&scene, &setting, &night, picture, out)
-    })?;
+    if describe_to_stdout {
+        Description::of(&setting, &night).write_to(out)?;
+    }
     progress.finish();
 
     // What describes the picture on standard output is not mixed with words.
     let mut standard_error = std::io::stderr();
-    let report: &mut dyn Write = if written.used_stdout { &mut standard_error } else { &mut *out };
+    let report: &mut dyn Write = if describe_to_stdout { &mut standard_error } else { &mut *out };
     if !args.quiet {
-        let ledger = drawn.as_ref().map(|drawn| &drawn.ledger);
+        let ledger = written.drawn.as_ref().map(|drawn| &drawn.ledger);
         summary::write(report, &setting, &night, ledger)?;
         for path in &written.paths {
             writeln!(report, "Wrote {}", path.display())?;
@@ -226,7 +242,8 @@ pub fn run(args: &RenderArgs, catalogs: &Catalogs, out: &mut impl Write) -> Resu
     }
     if args.stats {
         let sky = classic.map(|light| light.sky);
-        stats::write(report, &night, sky.as_ref(), drawn.as_ref(), progress.times())?;
+        let times: Vec<_> = steps.times().iter().chain(&written.times).copied().collect();
+        stats::write(report, &night, sky.as_ref(), written.drawn.as_ref(), &times)?;
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::air::Atmosphere;
 use crate::catalog::Catalogs;
 use crate::ephemeris::{Ephemeris, EphemerisError};
+use crate::job::skies;
 use crate::light::earth_shadow::Danjon;
 use crate::light::night::Night;
 use crate::place::Place;
@@ -63,11 +64,7 @@ pub fn night(
     danjon: Danjon,
     catalogs: &Catalogs,
 ) -> Result<Night, CliError> {
-    let ephemeris = Ephemeris::load(catalogs, tolerance)?;
-    let sky = SkyState::at(&ephemeris, instant, place, tolerance)?;
-    let features = catalogs.moon_features()?;
-    let night = Night::with_danjon(sky, catalogs.stars()?, air, danjon);
-    Ok(night.with_moon_features(features))
+    Ok(skies::night(instant, place, tolerance, air, danjon, catalogs)?)
 }
 
 /// The sky of a scene, given what its values mean.

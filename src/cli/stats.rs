@@ -4,9 +4,8 @@ use std::io::{self, Write};
 use std::time::Duration;
 
 use crate::air::classic::SkyUnderSun;
+use crate::job::picture::Drawn;
 use crate::light::night::Night;
-
-use super::draw::Drawn;
 
 /// Writes the statistics of a render.
 pub fn write(

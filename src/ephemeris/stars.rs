@@ -238,7 +238,9 @@ mod tests {
         Star {
             hr: 0,
             hip: None,
+            hd: None,
             designation: None,
+            flamsteed: None,
             name: None,
             dir_j2000: Dir::from_spherical(Angle::from_deg(40.0), Angle::ZERO),
             proper_motion_ra_arcsec_yr,

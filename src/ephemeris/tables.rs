@@ -84,6 +84,12 @@ impl Ephemeris {
         })
     }
 
+    /// Whether the tables were read as deep as a tolerance asks: loading them for it gives no more.
+    pub fn serves(&self, tolerance: Tolerance) -> bool {
+        let depth = Tier::depth_for(tolerance);
+        self.de440.as_ref().is_some_and(|table| table.depth() >= depth)
+    }
+
     /// Whether a tier can be asked.
     pub fn has(&self, tier: Tier) -> bool {
         self.theory(tier).is_some()

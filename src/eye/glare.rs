@@ -15,9 +15,6 @@ pub mod pyramid;
 pub mod spencer;
 pub mod spread;
 
-use crate::image::HdrFrame;
-use crate::units::Angle;
-
 pub use self::flare::Flare;
 pub use self::point::Halo;
 pub use self::pyramid::{scattered_by, scattered_with, shares};
@@ -37,15 +34,4 @@ impl Default for Optics {
     fn default() -> Self {
         Optics { age_years: 30.0, pigment: 0.5 }
     }
-}
-
-/// Diameter of the pupil by day, mm.
-const DAY_PUPIL_MM: f64 = 3.0;
-
-/// A frame as it reaches the retina of a default eye by day; its pixels are `pixel` apart in its
-/// middle, which is more than zero.
-pub fn scattered(frame: &HdrFrame, pixel: Angle) -> HdrFrame {
-    let spread = Glare::default().spread(&Optics::default(), DAY_PUPIL_MM);
-    let shares = spread.map(|spread| shares(&spread, pixel, frame.width_px(), frame.height_px()));
-    scattered_by(frame, &shares.unwrap_or_default())
 }

@@ -6,7 +6,7 @@
 //!    1997), which "discounts the empty portions of the histogram", with rods, cones and loss of
 //!    acuity: [`curve`].
 //! 2. The blue shift "for XYZV images as described in" Jensen, Premože et al. 2000, *Night Rendering*,
-//!    UUCS-00-016: [`blue_shifted`].
+//!    UUCS-00-016: [`super::rods`].
 //! 3. Section 5.2: "the physically-based glare filter by Spencer et al." 1995, for the stars.
 //!
 //! *What they leave open, and what we chose.*
@@ -20,8 +20,6 @@
 //! - The veil of Ward Larson et al. (8 %) is left out: Spencer's filter has it already.
 //! - The glare is for the stars alone, "in the color pages a close-up"; whether the Moon has it is not said.
 //! - Acuity: the blur of Ward Larson et al., with their limit ([`super::acuity`]), at the luminance of each place.
-
-pub use super::rods::shifted_xyz as blue_shifted;
 
 use super::histogram_adjustment::histogram_adjustment;
 use super::tone_curve::{Screen, ToneCurve};

@@ -10,7 +10,7 @@ use crate::units::{Angle, Xyzv};
 
 use super::adaptation::{Adaptation, level_cd_m2};
 use super::foveal::{Foveal, View};
-use super::glare::{Flare, Glare, Halo, Spread, shares};
+use super::glare::{Flare, Glare, Halo, Spread, pyramid, shares};
 use super::limiting_magnitude::{luminance_for_rods, threshold_lx};
 use super::receptors::{Mix, NightColour, mix, seen_luminance_cd_m2};
 use super::tone_curve::{Screen, ToneCurve};
@@ -50,7 +50,7 @@ pub struct Seeing {
     /// none where that does not matter.
     pub levels_resolved: Option<Vec<f32>>,
     /// Over light, in shares of the screen's peak: the luminance that cones give, and the X, Y and Z that
-    /// rods give.
+    /// rods give of a scotopic luminance as large as the photopic one.
     pub shown: Vec<[f32; 4]>,
     /// Over the light around: what is shown of a point, in shares of the screen's white times square
     /// pixels for a lux; the faintest point that is seen, lux.
@@ -66,7 +66,8 @@ pub struct Seeing {
 
 /// What the receptors make of a light.
 struct Mixed {
-    /// The luminance that cones give, and the X, Y and Z that rods give, cd/m2.
+    /// The luminance that cones give, and the X, Y and Z that rods give of a scotopic luminance as
+    /// large as the photopic one, cd/m2: so that all change little from row to row.
     parts: [f64; 4],
     /// What the tone curve maps, cd/m2.
     seen: f64,
@@ -203,7 +204,7 @@ impl Eye {
                     }
                     Model::Paper => (published_mix(photopic), photopic),
                 };
-                let [x, y, z] = mix.rods.map(|rods| rods * scotopic);
+                let [x, y, z] = mix.rods.map(|rods| rods * photopic);
                 let parts = [mix.cones * photopic, x, y, z];
                 Mixed {
                     parts,
@@ -237,9 +238,7 @@ impl Eye {
 /// Leaves what is spread no farther than [`NEAR`] where it is: the viewer's own eye does that to the picture.
 fn stay_if_near(shares: &mut [f64], pixel: Angle) {
     for (level, share) in (1..).zip(shares) {
-        // Standard deviation of a level's kernel, as in the pyramid.
-        let sigma_px = (4f64.powi(level) / 2.0 - 1.0).sqrt();
-        if sigma_px * pixel.rad() < NEAR.rad() {
+        if pyramid::level_sigma_px(level) * pixel.rad() < NEAR.rad() {
             *share = 0.0;
         }
     }
@@ -282,6 +281,36 @@ impl Seeing {
             colour: (display.shown_from_rgb() * colour).to_array(),
             illuminance_lx: lx.y,
             gathered: self.magnification.powi(2),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between its nodes the table says what the receptors themselves do, but near the luminance where cones
+    /// begin to see, a kink between two rows.
+    #[test]
+    fn receptors_are_read_as_they_are() {
+        for night_colour in [NightColour::Jensen, NightColour::Intrusion, NightColour::Day] {
+            let eye = Eye { night_colour, ..Eye::default() };
+            let mixed: Vec<[f32; 4]> =
+                eye.mixed().iter().map(|mixed| mixed.parts.map(|part| part as f32)).collect();
+            for step in 0..300 {
+                let y = 1e-5 * 1.083f64.powi(step);
+                // From the light of a red lamp to that of a blue star.
+                for (ratio, within) in
+                    [(0.3, 0.06), (0.6, 0.006), (1.19, 0.002), (2.38, 0.002), (4.9, 0.007)]
+                {
+                    let v = y * ratio;
+                    let direct = mix(night_colour, y, v);
+                    let [cones, rods @ ..] = light_table::at(&mixed, y, v);
+                    let read = cones + rods[1] * light_table::ratio(y, v);
+                    let off = read / (direct.cones * y + direct.rods[1] * v) - 1.0;
+                    assert!(off.abs() < within, "{night_colour:?} {y} {ratio}: {off}");
+                }
+            }
         }
     }
 }

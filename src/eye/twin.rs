@@ -48,8 +48,9 @@ impl Eye {
         let shown = |light: &[f32; 4]| {
             let [x, y, z, v] = light.map(f64::from);
             let [cones, rods @ ..] = light_table::at(&seeing.shown, y, v);
-            let gain = cones / y.max(1e-10);
-            let xyz = glam::DVec3::new(x, y, z) * gain + glam::DVec3::from_array(rods);
+            let gain = cones / y.max(light_table::DARKEST_CD_M2);
+            let rods = glam::DVec3::from_array(rods) * light_table::ratio(y, v);
+            let xyz = glam::DVec3::new(x, y, z) * gain + rods;
             within_gamut(rgb_from_seen * xyz, xyz.y).to_array()
         };
         let pixels = retina.pixels().par_iter().map(shown).collect();

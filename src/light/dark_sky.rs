@@ -26,7 +26,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::sync::{Arc, LazyLock, OnceLock};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -114,7 +114,11 @@ struct Inner {
     horizon: Angle,
     refraction: Refraction,
     /// Of the table that was asked for first: pictures ask for the same again.
-    rows: OnceLock<Vec<Row>>,
+    grid: OnceLock<Grid>,
+    /// The field of a sky of 1 all round.
+    even: OnceLock<DiffuseField>,
+    /// Fields of glowing layers by their height, km; the last that were asked for.
+    layers: Mutex<Vec<(f64, DiffuseField)>>,
 }
 
 impl fmt::Debug for NightAir {
@@ -140,7 +144,9 @@ impl NightAir {
             horizon: horizon(air, height_m, air.eye_km(height_m)),
             sight,
             refraction: air.refraction_at(height_m),
-            rows: OnceLock::new(),
+            grid: OnceLock::new(),
+            even: OnceLock::new(),
+            layers: Mutex::default(),
         };
         Ok(NightAir { inner: Arc::new(inner) })
     }
@@ -148,6 +154,11 @@ impl NightAir {
     /// Whether this is the air around an observer of a height above sea level, metres.
     pub fn is_of(&self, air: &Atmosphere, height_m: f64) -> bool {
         self.inner.air == *air && self.inner.height_m == height_m
+    }
+
+    /// Whether both have the same tables.
+    pub fn is_same(&self, other: &NightAir) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
     }
 
     /// Apparent elevation at which the ground begins.
@@ -165,24 +176,62 @@ impl NightAir {
         self.inner.tables.view(self.inner.eye_km, altitude)
     }
 
-    /// The altitudes of a table.
-    fn rows(&self, altitudes: &[Angle]) -> Cow<'_, [Row]> {
-        let make = || -> Vec<Row> {
-            let row = |&altitude: &Angle| Row {
-                altitude,
-                view: self.view(altitude),
-                passed: self.transmittance(altitude),
-            };
-            altitudes.par_iter().map(row).collect()
+    /// A table of these altitudes and azimuths.
+    fn grid(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Cow<'_, Grid> {
+        let known = self.inner.grid.get_or_init(|| self.new_grid(altitudes, azimuths));
+        match known.is_of(altitudes, azimuths) {
+            true => Cow::Borrowed(known),
+            false => Cow::Owned(self.new_grid(altitudes, azimuths)),
+        }
+    }
+
+    fn new_grid(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Grid {
+        let row = |&altitude: &Angle| Row {
+            altitude,
+            view: self.view(altitude),
+            clear: self.transmittance(altitude).map(|passed| {
+                let from =
+                    |&azimuth: &Angle| self.outside(Dir::from_azimuth_altitude(azimuth, altitude));
+                Clear::of(passed, azimuths.iter().map(from).collect())
+            }),
         };
-        let known = self.inner.rows.get_or_init(make);
-        let is_same = known.len() == altitudes.len()
-            && known.iter().zip(altitudes).all(|(row, altitude)| row.altitude == *altitude);
-        if is_same { Cow::Borrowed(known) } else { Cow::Owned(make()) }
+        Grid {
+            rows: altitudes.par_iter().map(row).collect(),
+            turns: azimuths.iter().map(|azimuth| turn(*azimuth)).collect(),
+            azimuths: azimuths.to_vec(),
+        }
+    }
+
+    /// The field of a sky of 1 all round.
+    fn lit_evenly(&self) -> DiffuseField {
+        let make = || self.inner.tables.lit_from(|_, _| 1.0);
+        self.inner.even.get_or_init(make).clone()
+    }
+
+    /// The field of a layer of a height that glows with 1 in the zenith.
+    fn lit_by_layer(&self, height_km: f64) -> DiffuseField {
+        /// More than any night has.
+        const MOST: usize = 8;
+        // Whoever failed while it was locked left it whole.
+        let lock = || self.inner.layers.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some((_, field)) = lock().iter().find(|(height, _)| *height == height_km) {
+            return field.clone();
+        }
+        let field = self.inner.tables.lit_from(glowing_layer(height_km));
+        let mut layers = lock();
+        layers.truncate(MOST - 1);
+        layers.insert(0, (height_km, field.clone()));
+        field
+    }
+
+    /// What arrives of starlight of 1 S10(V) at an apparent altitude, of the bluest and of the reddest
+    /// mix of stars, and of what dust sends back, cd/m2; nothing from below the horizon.
+    pub fn of_one_s10(&self, altitude: Angle) -> Option<OneS10> {
+        self.transmittance(altitude).map(one_s10)
     }
 
     /// Where light comes from that is seen in an apparent direction.
-    fn outside(&self, dir: Dir<Apparent>) -> Dir<Horizon> {
+    pub fn outside(&self, dir: Dir<Apparent>) -> Dir<Horizon> {
         self.inner.refraction.horizon_from_apparent(dir)
     }
 }
@@ -228,13 +277,56 @@ impl Scattered {
     }
 }
 
+/// What some air makes of every node of a table, whatever shines.
+#[derive(Clone)]
+struct Grid {
+    azimuths: Vec<Angle>,
+    turns: Vec<Turn>,
+    rows: Vec<Row>,
+}
+
+impl Grid {
+    fn is_of(&self, altitudes: &[Angle], azimuths: &[Angle]) -> bool {
+        self.azimuths == azimuths
+            && self.rows.len() == altitudes.len()
+            && self.rows.iter().zip(altitudes).all(|(row, altitude)| row.altitude == *altitude)
+    }
+}
+
 /// An altitude of a table.
 #[derive(Clone)]
 struct Row {
     altitude: Angle,
     view: DiffuseView,
     /// Nothing from below the horizon.
-    passed: Option<Transmittance>,
+    clear: Option<Clear>,
+}
+
+/// What the air lets through at an altitude.
+#[derive(Clone)]
+struct Clear {
+    passed: Transmittance,
+    /// Where light comes from, by azimuth.
+    outside: Vec<Dir<Horizon>>,
+    cosmic: Xyzv,
+    /// Of a radiance of 1 at 500 nm, reddest and least red.
+    zodiacal: [Xyzv; 2],
+    /// Of 1 S10(V) of the catalogue's stars, and of dust that sends all of it back.
+    star: Xyzv,
+    dust: Xyzv,
+}
+
+impl Clear {
+    fn of(passed: Transmittance, outside: Vec<Dir<Horizon>>) -> Clear {
+        Clear {
+            outside,
+            cosmic: (starlight::cosmic() * passed).xyzv(),
+            zodiacal: zodiacal::spectra().map(|spectrum| (spectrum * passed).xyzv()),
+            star: (star_spectrum(MIDDLE_COLOUR) * passed).xyzv(),
+            dust: one_s10(passed).dust,
+            passed,
+        }
+    }
 }
 
 /// The dark sky over one observer.
@@ -251,7 +343,7 @@ impl DarkSky {
         let tables = &air.inner.tables;
         let mut scattered = Vec::new();
         for layer in &lights.airglow {
-            let field = tables.lit_from(glowing_layer(layer.height_km));
+            let field = air.lit_by_layer(layer.height_km);
             scattered.push(Scattered::new(field, vec![(Component::Airglow, layer.zenith)]));
         }
         if let Some(axes) = lights.helioecliptic_from_horizon {
@@ -281,9 +373,8 @@ impl DarkSky {
             let of_stars = star_spectrum(MIDDLE_COLOUR);
             let lights = vec![(Component::Galactic, of_dust), (Component::Starlight, of_stars)];
             scattered.push(Scattered::new(field, lights));
-            let even = tables.lit_from(|_, _| 1.0);
             let light = vec![(Component::Cosmic, starlight::cosmic())];
-            scattered.push(Scattered::new(even, light));
+            scattered.push(Scattered::new(air.lit_evenly(), light));
         }
         DarkSky { air: air.clone(), lights, scattered }
     }
@@ -365,21 +456,14 @@ impl DarkSky {
         on_ground.scaled_to_photopic(self.town_ground().y)
     }
 
-    /// What arrives of starlight of 1 S10(V) at an apparent altitude, of the bluest and of the reddest
-    /// mix of stars, and of what dust sends back, cd/m2; nothing from below the horizon.
-    pub fn of_one_s10(&self, altitude: Angle) -> Option<OneS10> {
-        self.air.transmittance(altitude).map(one_s10)
+    /// The Milky Way and its axes, if it shines.
+    pub fn starlight(&self) -> Option<&(Starlight, Rot<Galactic, Horizon>)> {
+        self.lights.starlight.as_ref()
     }
 
-    /// Where the Milky Way is seen: the galactic direction of an apparent one.
-    pub fn galactic(&self, dir: Dir<Apparent>) -> Option<Dir<Galactic>> {
-        let (_, axes) = self.lights.starlight.as_ref()?;
-        Some(*axes * self.air.outside(dir))
-    }
-
-    /// The Milky Way, if it shines.
-    pub fn starlight(&self) -> Option<&Starlight> {
-        self.lights.starlight.as_ref().map(|(stars, _)| stars)
+    /// The air that all is seen through.
+    pub fn air(&self) -> &NightAir {
+        &self.air
     }
 
     /// Luminance at a grid of apparent altitudes and of azimuths, rows first, cd/m2: all that
@@ -388,18 +472,18 @@ impl DarkSky {
     pub fn luminances(&self, altitudes: &[Angle], azimuths: &[Angle]) -> Vec<Xyzv> {
         let towns = self.lights.towns.as_ref().map(|towns| towns.luminances(altitudes, azimuths));
         let town_ground = self.town_ground();
-        let turns: Vec<Turn> = azimuths.iter().map(|azimuth| turn(*azimuth)).collect();
+        let grid = self.air.grid(altitudes, azimuths);
         let of_row = |(row, at): (usize, &Row)| {
             let around = self.scattered_around(&at.view);
-            let straight = at.passed.map(|passed| self.straight(at.altitude, passed));
+            let even = at.clear.as_ref().map(|clear| (clear, self.even(at.altitude, clear)));
             let mut lights = Vec::with_capacity(azimuths.len());
-            for (column, (&azimuth, turn)) in azimuths.iter().zip(&turns).enumerate() {
+            for (column, turn) in grid.turns.iter().enumerate() {
                 let mut light = around.at(turn);
-                if let Some(straight) = &straight {
-                    light += straight.at(self, Dir::from_azimuth_altitude(azimuth, at.altitude));
+                if let Some((clear, even)) = even {
+                    light += self.straight(clear, even, clear.outside[column]);
                 }
                 if let Some(towns) = &towns {
-                    light += match straight {
+                    light += match even {
                         Some(_) => towns[row * azimuths.len() + column],
                         None => town_ground,
                     };
@@ -408,8 +492,7 @@ impl DarkSky {
             }
             lights
         };
-        let rows = self.air.rows(altitudes);
-        let rows: Vec<Vec<Xyzv>> = rows.par_iter().enumerate().map(of_row).collect();
+        let rows: Vec<Vec<Xyzv>> = grid.rows.par_iter().enumerate().map(of_row).collect();
         rows.concat()
     }
 
@@ -438,21 +521,41 @@ impl DarkSky {
         Waves(waves)
     }
 
-    /// What shines straight at an altitude, by what the air lets through.
-    fn straight(&self, altitude: Angle, passed: Transmittance) -> Straight {
-        let [reddest, least] = zodiacal::spectra().map(|spectrum| (spectrum * passed).xyzv());
+    /// What shines straight at an altitude in all azimuths alike, through the air.
+    fn even(&self, altitude: Angle, clear: &Clear) -> Xyzv {
         let dir = self.air.outside(Dir::from_azimuth_altitude(Angle::ZERO, altitude));
         let even = self.lights.airglow.iter().map(|layer| {
             let shape = glowing_layer(layer.height_km)(self.air.inner.eye_km, dir.altitude().sin());
-            (layer.zenith * passed).xyzv() * shape
+            (layer.zenith * clear.passed).xyzv() * shape
         });
         let mut even: Xyzv = even.sum();
         if self.lights.starlight.is_some() {
-            even += (starlight::cosmic() * passed).xyzv();
+            even += clear.cosmic;
         }
-        let star = (star_spectrum(MIDDLE_COLOUR) * passed).xyzv();
-        let dust = one_s10(passed).dust;
-        Straight { even, zodiacal: [reddest, least], star, dust }
+        even
+    }
+
+    /// All that shines straight from a direction outside, of which some is even.
+    fn straight(&self, clear: &Clear, even: Xyzv, outside: Dir<Horizon>) -> Xyzv {
+        let mut light = even;
+        if let Some(axes) = self.lights.helioecliptic_from_horizon {
+            let dir = axes * outside;
+            let (longitude, latitude) = (dir.longitude(), dir.latitude());
+            let level = zodiacal::radiance_500(longitude, latitude);
+            let redness = zodiacal::redness(zodiacal::elongation(longitude, latitude));
+            let [reddest, least] = clear.zodiacal;
+            light += (reddest * redness + least * (1.0 - redness)) * level;
+        }
+        if let Some((_, axes)) = &self.lights.starlight {
+            let dir = *axes * outside;
+            if let Some(glow) = &self.lights.undrawn {
+                light += clear.star * glow.s10(dir);
+            }
+            if let Some(stars) = &self.lights.catalogue {
+                light += clear.dust * (stars.s10(dir) * starlight::diffuse_share(dir.latitude()));
+            }
+        }
+        light
     }
 }
 
@@ -491,41 +594,6 @@ impl Waves {
         let wave =
             |([cos, sin], (cosine, sine)): (&[Xyzv; 2], &(f64, f64))| *cos * *cosine + *sin * *sine;
         self.0.iter().zip(turn).map(wave).sum()
-    }
-}
-
-/// What comes straight from outside at one altitude, through the air.
-struct Straight {
-    /// The same in all azimuths.
-    even: Xyzv,
-    /// Of a radiance of 1 at 500 nm, reddest and least red.
-    zodiacal: [Xyzv; 2],
-    /// Of 1 S10(V) of the catalogue's stars, and of dust that sends all of it back.
-    star: Xyzv,
-    dust: Xyzv,
-}
-
-impl Straight {
-    fn at(&self, sky: &DarkSky, dir: Dir<Apparent>) -> Xyzv {
-        let outside = sky.air.outside(dir);
-        let mut light = self.even;
-        if let Some(axes) = sky.lights.helioecliptic_from_horizon {
-            let dir = axes * outside;
-            let level = zodiacal::radiance_500(dir.longitude(), dir.latitude());
-            let redness = zodiacal::redness(zodiacal::elongation(dir.longitude(), dir.latitude()));
-            let [reddest, least] = self.zodiacal;
-            light += (reddest * redness + least * (1.0 - redness)) * level;
-        }
-        if let Some((_, axes)) = &sky.lights.starlight {
-            let dir = *axes * outside;
-            if let Some(glow) = &sky.lights.undrawn {
-                light += self.star * glow.s10(dir);
-            }
-            if let Some(stars) = &sky.lights.catalogue {
-                light += self.dust * (stars.s10(dir) * starlight::diffuse_share(dir.latitude()));
-            }
-        }
-        light
     }
 }
 

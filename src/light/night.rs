@@ -5,11 +5,11 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use crate::air::Atmosphere;
-use crate::air::extinction::SightLines;
 use crate::air::refraction::Refraction;
 use crate::catalog::MoonFeature;
 use crate::ephemeris::{Body, Galilean};
 use crate::frame::{Apparent, Dir, Horizon};
+use crate::light::clear_view::ClearView;
 use crate::light::disc_light::{point_light, visible_light};
 use crate::light::earth_shadow::{Danjon, EarthShadow, ShadowedMoon};
 use crate::light::earthshine::{self, EarthView};
@@ -124,13 +124,13 @@ pub struct MoonInShadow {
 
 impl Eclipsed {
     /// Air that cannot be makes no shadow.
-    fn of(sky: &SkyState, air: &Atmosphere, danjon: Danjon) -> Eclipsed {
+    fn of(sky: &SkyState, view: &ClearView, danjon: Danjon) -> Eclipsed {
         let sun = Some(CoveredSun::of(sky)).filter(|sun| !sun.is_whole());
         let place = ShadowedMoon::of(sky);
         let in_shadow = || {
-            let shadow = EarthShadow::new(air, danjon, place.distances).ok()?;
+            let shadow = view.earth_shadow(danjon, place.distances)?;
             let mean = shadow.over_disc(place.offset, place.disc_radius());
-            Some(MoonInShadow { shadow: Arc::new(shadow), place, mean })
+            Some(MoonInShadow { shadow, place, mean })
         };
         let moon = if place.is_outside() { None } else { in_shadow() };
         Eclipsed { sun, moon }
@@ -151,27 +151,38 @@ impl Night {
         air: &Atmosphere,
         danjon: Danjon,
     ) -> Night {
-        let eclipse = Eclipsed::of(&sky, air, danjon);
-        let height_m = sky.place.height_m;
-        let refraction = air.refraction_at(height_m);
-        let sight = SightLines::over(air, height_m);
-        let horizon = sight.horizon();
+        let view = ClearView::new(air, sky.place.height_m);
+        Night::seen_through(&view, sky, stars, danjon)
+    }
+
+    /// The same through air that is ready to be looked through; the height of the place is its height.
+    pub fn seen_through(
+        view: &ClearView,
+        sky: SkyState,
+        stars: impl Into<StarIndex>,
+        danjon: Danjon,
+    ) -> Night {
+        let air = view.air();
+        let eclipse = Eclipsed::of(&sky, view, danjon);
+        let refraction = view.refraction().clone();
+        let sight = view.sight();
+        let horizon = view.horizon();
         let body = |state: &BodyState| {
             let apparent = refraction.apparent_from_horizon(state.dir);
             let spectrum = irradiance(state, &sky, &eclipse);
             let outside = spectrum.xyzv();
             let ground = match state.body {
                 Body::Sun if air.paths.source_disc => {
-                    visible_light(state, &spectrum, &sight, &refraction)
+                    visible_light(state, &spectrum, sight, &refraction)
                 }
                 Body::Moon if air.paths.source_disc => {
                     // The Earth, beside the observer, lights the whole disc.
                     let earthlit = BodyState { dir_to_sun: -state.dir, ..*state };
                     let sunlight = sunlit_moon(&sky, &eclipse);
-                    visible_light(state, &sunlight, &sight, &refraction)
-                        + visible_light(&earthlit, &earthlit_moon(&sky), &sight, &refraction)
+                    visible_light(state, &sunlight, sight, &refraction)
+                        + visible_light(&earthlit, &earthlit_moon(&sky), sight, &refraction)
                 }
-                _ => point_light(apparent.altitude(), &spectrum, &sight, &refraction),
+                _ => point_light(apparent.altitude(), &spectrum, sight, &refraction),
             };
             LitObject {
                 kind: Kind::Body(state.body),
@@ -194,7 +205,7 @@ impl Night {
                 error_bound: state.error_bound,
                 magnitude: light.magnitude,
                 outside: light.magnitude.illuminance(),
-                ground: point_light(apparent.altitude(), &light.spectrum, &sight, &refraction),
+                ground: point_light(apparent.altitude(), &light.spectrum, sight, &refraction),
             }
         }));
 
@@ -205,7 +216,7 @@ impl Night {
             horizon,
             objects,
             stars: stars.into(),
-            starlight: Arc::default(),
+            starlight: view.starlight(),
             eclipse,
             moon_features: Vec::new(),
         }

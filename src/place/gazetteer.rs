@@ -18,7 +18,8 @@ use thiserror::Error;
 
 use crate::place::{HEIGHT_RANGE_M, Place, PlaceError};
 use crate::units::Angle;
-use fold::{folded, folded_german, has_word_start, has_words};
+pub use fold::folded;
+use fold::{folded_german, has_word_start, has_words};
 
 /// The columns of a gazetteer, in order; the first line of the text.
 pub const COLUMNS: [&str; 9] = [
@@ -98,6 +99,11 @@ impl City {
             return self.name.clone();
         }
         format!("{} ({})", self.name, self.admin1)
+    }
+
+    /// The country, known by the time zone.
+    pub fn country(&self) -> Option<&'static str> {
+        country::name(self.time_zone?.name())
     }
 
     /// The place itself; at sea level if the elevation is not known.

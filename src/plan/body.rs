@@ -18,11 +18,11 @@ use crate::light::saturn_rings;
 use crate::light::spectrum::Spectrum;
 use crate::light::sun::LimbDarkening;
 use crate::sky::BodyState;
-use crate::units::{Angle, SUN_RADIUS_KM, Xyzv};
+use crate::units::{Angle, MOON_RADIUS_KM, SUN_RADIUS_KM, Xyzv};
 
 use super::disc::{Disc, DiscBand, DiscNode, DiscShape, Lattice, NODES, SurfaceLaw};
 use super::globe::umbra::UmbraTable;
-use super::globe::{CHANNELS, GlobeView, KeptGlobe, SeenGlobe};
+use super::globe::{self, CHANNELS, GlobeView, KeptGlobe, SeenGlobe};
 use super::planet::PlanetDisc;
 
 /// A disc smaller than this is a point.
@@ -299,6 +299,10 @@ impl<'a> SeenBody<'a> {
             globe: kept.of(view, maps),
             north: Angle::from_rad(north.dot(level).atan2(north.dot(up))),
             radius_px: 0.5 * self.across_px(),
+            body_from_picture: globe::body_from_picture(
+                body_from_horizon * -self.state.dir.vector(),
+            ),
+            distance: self.state.distance_km / MOON_RADIUS_KM,
         })
     }
 

@@ -17,6 +17,7 @@ use crate::sky::star_index::StarIndex;
 use crate::units::{Angle, Xyzv};
 
 use super::data::SkyData;
+use super::kept_dark::KeptTables;
 use super::lay::SWITCHED_OFF;
 use super::ledger::Ledger;
 use super::milky_way::MilkyWayPlan;
@@ -36,7 +37,10 @@ pub struct KeptDarkSky {
     towns: Option<(Place, Vec<Town>)>,
     town_shapes: Option<(Atmosphere, f64, GlowTables)>,
     town_glow: Option<(TownLight, Lamps, TownGlow)>,
+    /// How often the glow of towns has changed.
+    town_changes: u64,
     starlight: Option<Starlight>,
+    tables: KeptTables,
     /// Stars of a catalogue that are fainter than a magnitude.
     glows: Vec<(StarIndex, f64, Arc<StarGlow>)>,
 }
@@ -49,6 +53,28 @@ impl KeptDarkSky {
             return Ok(air.clone());
         }
         Ok(self.air.insert(NightAir::solve(&night.air, height_m)?).clone())
+    }
+
+    /// Forgets the tables of the frame before, not the air nor what shines.
+    pub fn forget_tables(&mut self) {
+        self.tables = KeptTables::default();
+    }
+
+    /// How many tables are kept, of the sky and of stars that glow.
+    pub fn tables(&self) -> usize {
+        self.tables.tables() + self.glows.len()
+    }
+
+    /// Lays the lights of a night, as in the frame before where they are the same.
+    pub(super) fn lay(
+        &mut self,
+        night: &Night,
+        lights: NightLights,
+        plan: &mut SkyPlan,
+    ) -> Result<Option<MilkyWayPlan>, ScatteringError> {
+        let air = self.air(night)?;
+        let (changes, axes) = (self.town_changes, night.sky.horizon_from_icrs);
+        Ok(self.tables.lay(&air, lights, changes, axes, plan))
     }
 
     /// Where town glow is from: the towns of the gazetteer are looked up once for a place.
@@ -90,6 +116,9 @@ impl KeptDarkSky {
             }
         };
         let known = self.town_glow.take_if(|(known, of, _)| known == light && *of == lamps);
+        if known.is_none() {
+            self.town_changes += 1;
+        }
         let known =
             known.unwrap_or_else(|| (light.clone(), lamps, TownGlow::new(light, lamps, &shapes)));
         self.town_shapes = Some((air, height_m, shapes));
@@ -179,13 +208,19 @@ pub fn lights(
 
 /// The table of a dark sky for a plan, and the Milky Way in front of it.
 pub fn lay(sky: &DarkSky, plan: &mut SkyPlan) -> Option<MilkyWayPlan> {
+    let altitudes = lay_table(sky, plan);
+    MilkyWayPlan::of(sky, plan.horizon, &altitudes[..SKY_SHAPE.above])
+}
+
+/// The table alone; the altitudes of its rows.
+pub(super) fn lay_table(sky: &DarkSky, plan: &mut SkyPlan) -> Vec<Angle> {
     let altitudes: Vec<Angle> =
         (0..SKY_SHAPE.rows()).map(|row| SKY_SHAPE.elevation_beside(row, plan.horizon)).collect();
     let turn = Angle::from_deg(360.0);
     let azimuths: Vec<Angle> =
         (0..DARK_AZIMUTHS).map(|column| turn * (column as f64 / DARK_AZIMUTHS as f64)).collect();
     plan.dark = sky.luminances(&altitudes, &azimuths);
-    MilkyWayPlan::of(sky, plan.horizon, &altitudes[..SKY_SHAPE.above])
+    altitudes
 }
 
 /// No dark sky at all.

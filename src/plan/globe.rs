@@ -105,10 +105,15 @@ impl GlobeView {
 
     /// Axes of the picture in the Moon's own: to the right, up, away from the observer.
     pub fn body_from_picture(&self) -> DMat3 {
-        let away = -self.to_observer;
-        let right = away.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::Y);
-        DMat3::from_cols(right, right.cross(away), away)
+        body_from_picture(self.to_observer)
     }
+}
+
+/// Axes of the picture of a globe in its own, given the direction of the observer: to the right, up, away.
+pub fn body_from_picture(to_observer: DVec3) -> DMat3 {
+    let away = -to_observer;
+    let right = away.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::Y);
+    DMat3::from_cols(right, right.cross(away), away)
 }
 
 fn rounded(value: f64, step: f64) -> f64 {
@@ -145,6 +150,10 @@ pub struct SeenGlobe {
     pub north: Angle,
     /// Radius on the frame, pixels.
     pub radius_px: f64,
+    /// Axes of the picture in the Moon's own as they are, not rounded.
+    pub body_from_picture: DMat3,
+    /// Of the observer from the centre, not rounded, in radii of the Moon.
+    pub distance: f64,
 }
 
 impl SeenGlobe {

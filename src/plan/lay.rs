@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::camera::Camera;
 use crate::ephemeris::Body;
 use crate::frame::{Apparent, Dir};
-use crate::light::dark_sky::DarkSky;
 use crate::light::moon::Reflectance;
 use crate::light::night::{Kind, LitObject, Night, StarSearch};
 use crate::scene::{Layers, Setting};
@@ -61,6 +60,18 @@ impl Kept {
             globe: KeptGlobe::default(),
             dark_sky: KeptDarkSky::default(),
         }
+    }
+
+    /// Forgets the tables of the sky: the next frame makes its own, as the first one does. The air that
+    /// was solved is kept.
+    pub fn forget_tables(&mut self) {
+        self.air.forget_skies();
+        self.dark_sky.forget_tables();
+    }
+
+    /// How many tables of the sky are kept: a number that does not grow with the frames.
+    pub fn tables(&self) -> usize {
+        self.air.skies() + self.dark_sky.tables()
     }
 }
 
@@ -327,8 +338,7 @@ fn lay_dark_sky(
     if lights.are_out() {
         return Ok(None);
     }
-    let air = kept.dark_sky.air(night)?;
-    Ok(dark_sky::lay(&DarkSky::new(&air, lights), sky))
+    Ok(kept.dark_sky.lay(night, lights, sky)?)
 }
 
 /// A sky with its ground black where there is to be none.

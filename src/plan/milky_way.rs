@@ -1,8 +1,10 @@
 //! The light of the stars that are not drawn one by one, as a picture shows it: a map, and what the
 //! air lets through of it at each altitude.
 
-use crate::frame::{Apparent, Dir, Galactic};
-use crate::light::dark_sky::{DarkSky, OneS10};
+use std::sync::Arc;
+
+use crate::frame::{Apparent, Dir, Galactic, Horizon, Rot};
+use crate::light::dark_sky::{DarkSky, NightAir, OneS10};
 use crate::light::starlight::{self, Starlight};
 use crate::units::{Angle, Xyzv};
 
@@ -13,10 +15,11 @@ use super::SKY_SHAPE;
 pub struct MilkyWayPlan {
     /// Light outside the air.
     pub starlight: Starlight,
-    sky: DarkSky,
+    axes: Rot<Galactic, Horizon>,
+    air: NightAir,
     horizon: Angle,
     /// By the rows of [`SKY_SHAPE`] above the horizon.
-    rows: Vec<OneS10>,
+    rows: Arc<[OneS10]>,
 }
 
 /// Where a direction looks in the Milky Way, and what arrives from there of 1 S10(V), with what the
@@ -31,9 +34,15 @@ pub struct MilkyWaySight {
 impl MilkyWayPlan {
     /// None if it does not shine. Given the altitudes of the rows.
     pub fn of(sky: &DarkSky, horizon: Angle, altitudes: &[Angle]) -> Option<MilkyWayPlan> {
-        let starlight = sky.starlight()?.clone();
-        let rows = altitudes.iter().filter_map(|&altitude| sky.of_one_s10(altitude)).collect();
-        Some(MilkyWayPlan { starlight, sky: sky.clone(), horizon, rows })
+        let (starlight, axes) = sky.starlight()?.clone();
+        let air = sky.air().clone();
+        let rows = altitudes.iter().filter_map(|&altitude| air.of_one_s10(altitude)).collect();
+        Some(MilkyWayPlan { starlight, axes, air, horizon, rows })
+    }
+
+    /// The same under a sky that has turned.
+    pub(super) fn turned(&self, axes: Rot<Galactic, Horizon>) -> MilkyWayPlan {
+        MilkyWayPlan { axes, ..self.clone() }
     }
 
     /// Apparent altitude at which the ground begins.
@@ -43,7 +52,7 @@ impl MilkyWayPlan {
 
     /// What a direction sees, were there no ground.
     pub fn sight(&self, dir: Dir<Apparent>) -> Option<MilkyWaySight> {
-        let galactic = self.sky.galactic(dir)?;
+        let galactic = self.axes * self.air.outside(dir);
         let (row, up) = SKY_SHAPE.row_at(dir.altitude(), self.horizon, true);
         let (low, high) = (self.rows.get(row)?, self.rows.get(row + 1)?);
         let between = |of: fn(&OneS10) -> Xyzv| of(low) * (1.0 - up) + of(high) * up;

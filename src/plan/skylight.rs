@@ -17,6 +17,7 @@ use crate::light::spectrum::{LEN, Spectrum, wavelength_nm};
 use crate::store::Store;
 use crate::units::{Angle, Xyzv};
 
+use super::kept_source::KeptSource;
 use super::{SKY_SHAPE, SkyPlan, SourceSky};
 
 /// Below this altitude of the Sun its light is nowhere over 2 % of the dark sky. At 18 degrees of
@@ -128,6 +129,22 @@ impl SolvedAir {
         SourceSky { azimuth: source.azimuth(), view: seen.refined(SKY_SHAPE) }
     }
 
+    /// The same of what is kept of the frame before; the first is that of [`SolvedAir::sky`].
+    fn sky_in(
+        &self,
+        source: Dir<Horizon>,
+        irradiance: &Spectrum,
+        kept: &mut KeptSource,
+    ) -> SourceSky {
+        let make = |altitude: Angle| {
+            let computed = self.tables.sky_view(&self.rays, altitude.sin());
+            computed.seen_by(&self.sums(irradiance)).refined(SKY_SHAPE)
+        };
+        let seen_at = |altitude: Angle| self.tables.source_elevation(&self.rays, altitude.sin());
+        let view = kept.view(source.altitude(), irradiance, make, seen_at);
+        SourceSky { azimuth: source.azimuth(), view }
+    }
+
     /// The same for a Sun that the Moon covers: the two sides of the sky, clockwise from the Sun and the
     /// other way. Given the irradiance of the whole Sun.
     pub fn eclipsed_sky(
@@ -176,12 +193,43 @@ impl SolvedAir {
 pub struct KeptAir {
     solved: Option<SolvedAir>,
     store: Store,
+    /// The horizon in some air of an observer of a height above sea level, metres.
+    horizon: Option<(Atmosphere, f64, Angle)>,
+    /// The skies of the frame before in the solved air.
+    sun: KeptSource,
+    moon: KeptSource,
 }
 
 impl KeptAir {
     /// None yet.
     pub fn new(store: Store) -> KeptAir {
-        KeptAir { solved: None, store }
+        KeptAir {
+            solved: None,
+            store,
+            horizon: None,
+            sun: KeptSource::default(),
+            moon: KeptSource::default(),
+        }
+    }
+
+    /// Forgets the skies of the frame before, not the air.
+    pub fn forget_skies(&mut self) {
+        (self.sun, self.moon) = (KeptSource::default(), KeptSource::default());
+    }
+
+    /// How many tables of skies are kept.
+    pub fn skies(&self) -> usize {
+        self.sun.tables() + self.moon.tables()
+    }
+
+    /// The apparent altitude of the horizon, in any air.
+    fn horizon(&mut self, air: &Atmosphere, height_m: f64) -> Angle {
+        let known =
+            self.horizon.take_if(|(known, height, _)| *known == *air && *height == height_m);
+        let known = known.unwrap_or_else(|| {
+            (air.clone(), height_m, horizon(air, height_m, air.eye_km(height_m)))
+        });
+        self.horizon.insert(known).2
     }
 
     /// This air around an observer of a height above sea level, metres, and where it is from.
@@ -194,6 +242,7 @@ impl KeptAir {
             return Ok((self.solved.insert(kept), Origin::FrameBefore));
         }
         let never = Interrupt::default();
+        self.forget_skies();
         let solved = SolvedAir::stored(air, height_m, &self.store, &never)?;
         let solved = self.solved.insert(solved.ok_or(ScatteringError::Interrupted)?);
         let origin = if solved.tables.is_from_store() { Origin::Store } else { Origin::SolvedNow };
@@ -219,15 +268,18 @@ pub fn sky_plan(
 ) -> Result<(SkyPlan, Option<Origin>), ScatteringError> {
     let mut origin = None;
     let height_m = night.sky.place.height_m;
-    let mut sky = SkyPlan::black(horizon(&night.air, height_m, night.air.eye_km(height_m)));
-    for (shines, state, lit) in [
-        (with_sun, &night.sky.sun, &mut sky.sun),
-        (with_moon, &night.sky.moon.state, &mut sky.moon),
-    ] {
-        if shines {
-            let (air, from) = kept.of(&night.air, height_m)?;
-            origin.get_or_insert(from);
-            *lit = Some(air.sky(state.dir, &night.irradiance(state)));
+    let mut sky = SkyPlan::black(kept.horizon(&night.air, height_m));
+    if with_sun || with_moon {
+        let (_, from) = kept.of(&night.air, height_m)?;
+        origin = Some(from);
+        let KeptAir { solved, sun, moon, .. } = kept;
+        for (shines, state, of_source, lit) in [
+            (with_sun, &night.sky.sun, sun, &mut sky.sun),
+            (with_moon, &night.sky.moon.state, moon, &mut sky.moon),
+        ] {
+            if let (true, Some(air)) = (shines, &solved) {
+                *lit = Some(air.sky_in(state.dir, &night.irradiance(state), of_source));
+            }
         }
     }
     if let (true, Some(covered)) = (with_sun, in_shadow_of_moon(night)) {

@@ -6,9 +6,9 @@ use std::sync::{Mutex, PoisonError};
 use half::f16;
 
 use crate::camera::Camera;
-use crate::display::Display;
+use crate::display::{ColourSpace, Display};
 use crate::eye::Eye;
-use crate::eye::foveal::View;
+use crate::eye::foveal::{Foveal, View};
 use crate::eye::glare::pyramid::finest_spread;
 use crate::eye::glare::{Flare, Halo, flare, point};
 use crate::eye::light_table;
@@ -29,7 +29,7 @@ use super::uniforms::{
 };
 
 /// Edge of the picture of noise, texels; `shaders/eye.wgsl` knows it too.
-const NOISE_PX: u32 = 256;
+pub const NOISE_PX: u32 = 256;
 /// The grain is as fine as what a dark-adapted eye resolves, and no finer than a pixel.
 const GRAIN: Angle = Angle::from_arcmin(5.0);
 /// Root of the luminance at which counts vary by as much as their mean, cd/m2.
@@ -45,13 +45,18 @@ pub struct EyePass {
     pipelines: Mutex<Vec<(Kind, Pipelines)>>,
     /// The textures of the last size.
     kept: Mutex<Option<Pyramid>>,
+    /// The grain of the last seed.
+    noise: Mutex<Option<(Option<u64>, wgpu::TextureView)>>,
 }
 
 /// What the shaders are made for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Kind {
-    display: Display,
     depth: Depth,
+    space: ColourSpace,
+    /// Of [`picture_constants`].
+    constants: [(&'static str, f64); 2],
+    is_red: bool,
     has_grain: bool,
 }
 
@@ -113,6 +118,7 @@ impl EyePass {
             turning: gpu.linear_sampler(wgpu::AddressMode::Repeat),
             pipelines: Mutex::default(),
             kept: Mutex::default(),
+            noise: Mutex::default(),
         }
     }
 
@@ -139,23 +145,35 @@ impl EyePass {
         };
         let joined = with_points.unwrap_or(pyramid.len());
         self.pyramid.down(frame, pyramid, 1..=joined);
+        let foveal = view.foveal_level();
+        // Points are no part of what is finished here: the light that tells what is smooth is without them.
+        let mut without_points = None;
         if with_points.is_some() {
+            if joined <= foveal {
+                self.pyramid.down(frame, pyramid, joined + 1..=foveal);
+                without_points = Some(pyramid.read(frame, foveal)?);
+            }
             self.point_light(frame, scene, pyramid, joined);
         }
         self.pyramid.down(frame, pyramid, joined + 1..=pyramid.len());
-        let gathered = pyramid.read(frame, view.foveal_level())?;
+        let gathered = pyramid.read(frame, foveal)?;
         let seeing = scene.eye.seeing(&gathered, &view, scene.display);
+        let without_points =
+            without_points.map(|light| Foveal::of(&light, &view, foveal, &seeing.glare_shares));
 
         let tiles = EyeTiles::of(
             size_px,
             pyramid.len(),
             &seeing.foveal,
+            without_points.as_ref().unwrap_or(&seeing.foveal),
             seeing.levels_resolved.as_deref(),
             !seeing.glare_shares.is_empty(),
         );
         let kind = Kind {
-            display: *scene.display,
             depth: picture.depth(),
+            space: scene.display.space,
+            constants: picture_constants(scene.display, picture.depth()),
+            is_red: scene.display.red,
             has_grain: scene.eye.grain.is_some(),
         };
         let around = finest_spread(size_px[0], size_px[1]);
@@ -259,7 +277,7 @@ impl EyePass {
         }
         let uniform = |label, bytes: &[u8]| gpu.buffer(label, bytes, wgpu::BufferUsages::UNIFORM);
         let grain = uniform("grain", bytemuck::bytes_of(&grain(work.scene)));
-        let noise = noise_texture(gpu, work.scene.eye.grain);
+        let noise = self.noise(gpu, work.scene.eye.grain);
         let frame_view = frame.view();
         let pipelines = &work.pipelines;
         let mut kinds: Vec<(&wgpu::RenderPipeline, &[Tile], &[u32], usize)> = vec![
@@ -308,6 +326,16 @@ impl EyePass {
                 pass.draw(0..4, 0..*count);
             }
         });
+    }
+
+    /// The noise of a seed, made once.
+    fn noise(&self, gpu: &Gpu, seed: Option<u64>) -> wgpu::TextureView {
+        // A poisoned lock holds a whole texture or none.
+        let mut kept = self.noise.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some((known, view)) if *known == seed => view.clone(),
+            _ => kept.insert((seed, noise_texture(gpu, seed))).1.clone(),
+        }
     }
 
     /// Points of light, those that are seen.
@@ -367,6 +395,7 @@ impl EyePass {
             pad: 0.0,
         };
         let halo = uniform("halo", bytemuck::bytes_of(&halo));
+        let reaches = row_texture(gpu, &halo_reaches(&rows));
         let rows = row_texture(gpu, &rows);
         let pipeline = &work.pipelines.points;
         let group = gpu.bind_mixed(
@@ -381,6 +410,7 @@ impl EyePass {
                 (6, view(&rows)),
                 (7, work.screen.display.as_entire_binding()),
                 (8, view(&work.screen.shown)),
+                (9, view(&reaches)),
             ],
         );
         frame.adding_pass("points", work.picture.light(), |pass| {
@@ -450,9 +480,9 @@ impl EyePass {
         if let Some((_, pipelines)) = made.iter().find(|(known, _)| *known == kind) {
             return pipelines.clone();
         }
-        let mut constants = picture_constants(&kind.display, kind.depth).to_vec();
+        let mut constants = kind.constants.to_vec();
         let is = |truth: bool| f64::from(u8::from(truth));
-        constants.push(("IS_RED", is(kind.display.red)));
+        constants.push(("IS_RED", is(kind.is_red)));
         let of_screen = constants.clone();
         constants.push(("HAS_GRAIN", is(kind.has_grain)));
         let pixels = |entry| {
@@ -483,7 +513,7 @@ impl EyePass {
             source: shaders::assembled("flare"),
             entries: ["vertex", "fragment"],
             constants: &of_screen,
-            targets: &[kind.depth.light_format(kind.display.space)],
+            targets: &[kind.depth.light_format(kind.space)],
             buffers: &[Some(of_flares)],
             adds: true,
         });
@@ -492,7 +522,7 @@ impl EyePass {
             source: shaders::assembled("points"),
             entries: ["vertex", "fragment"],
             constants: &of_screen,
-            targets: &[kind.depth.light_format(kind.display.space)],
+            targets: &[kind.depth.light_format(kind.space)],
             buffers: &[Some(instance)],
             adds: true,
         });
@@ -524,6 +554,25 @@ fn halo_rows(halo: Option<&Halo>) -> Vec<f32> {
     let rows = halo.map_or(&[] as &[f64], Halo::table);
     let rows: Vec<f32> = rows.iter().map(|&light| light as f32).collect();
     if rows.is_empty() { vec![0.0] } else { rows }
+}
+
+/// Light per square pixel of the first column of the table of reaches, log2, columns to an octave, and how
+/// many there are; `shaders/points.wgsl` knows them too.
+const LEAST_LOG2: f64 = -48.0;
+const REACHES_PER_OCTAVE: f64 = 2.0;
+const REACHES: usize = 129;
+
+/// Where the halo has no more than so much light per square pixel, pixels, from its rows, which fall.
+fn halo_reaches(rows: &[f32]) -> Vec<f32> {
+    let reach_px = |column: usize| {
+        let least = (LEAST_LOG2 + column as f64 / REACHES_PER_OCTAVE).exp2() as f32;
+        let row = rows.iter().rposition(|light| *light > least).map_or(0.0, |last| {
+            let next = rows.get(last + 1).copied().unwrap_or(0.0);
+            last as f64 + f64::from((rows[last] - least) / (rows[last] - next))
+        });
+        (point::FIRST_PX * (row / point::PER_OCTAVE as f64).exp2()) as f32
+    };
+    (0..REACHES).map(reach_px).collect()
 }
 
 fn grain(scene: &Scene) -> GrainUniform {

@@ -93,6 +93,8 @@ pub struct Stage<'a> {
 
 /// The device and its queue.
 pub struct Gpu {
+    pub instance: wgpu::Instance,
+    pub adapter: wgpu::Adapter,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
@@ -130,7 +132,8 @@ impl Gpu {
             adapter: info.name.clone(),
             reason: error.to_string(),
         })?;
-        Ok(Gpu { device, queue, info, keeps_time: offered.contains(timing) })
+        let keeps_time = offered.contains(timing);
+        Ok(Gpu { instance, adapter, device, queue, info, keeps_time })
     }
 
     /// Name, driver and interface of the adapter.
@@ -256,7 +259,7 @@ impl Gpu {
         })
     }
 
-    fn module(&self, label: &str, source: &str) -> wgpu::ShaderModule {
+    pub fn module(&self, label: &str, source: &str) -> wgpu::ShaderModule {
         self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(source.into()),

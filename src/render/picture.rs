@@ -70,7 +70,9 @@ impl PictureTarget {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: codes,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[light],
         });
         let view = |format| {
@@ -92,6 +94,11 @@ impl PictureTarget {
     /// To add light.
     pub fn light(&self) -> &wgpu::TextureView {
         &self.light
+    }
+
+    /// The codes, to be read by whoever shows them.
+    pub fn into_codes(self) -> wgpu::TextureView {
+        self.codes
     }
 
     /// Brings it to memory.

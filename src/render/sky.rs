@@ -51,7 +51,7 @@ impl SkyPass {
     /// Draws over the whole frame.
     pub fn draw(&self, frame: &mut Target, sky: &SkyPlan, camera: &Camera, detail: SkyDetail) {
         let gpu = frame.gpu;
-        let tables = Tables::new(gpu, sky, camera.pixel_angle().rad());
+        let tables = Tables::new(gpu, sky, Some(camera));
         let tiles = tiles(sky, camera, detail);
         let buffers = [&frame.camera, &tables.uniform, &tables.table, &tables.phase];
         let bound = |pipeline: &wgpu::RenderPipeline| {
@@ -95,7 +95,7 @@ impl SkyPass {
     ) -> Result<Vec<Xyzv>, GpuError> {
         /// Directions of one dispatch: as many work groups as every adapter takes.
         const AT_ONCE: usize = 64 * 65_535;
-        let tables = Tables::new(gpu, sky, 0.0);
+        let tables = Tables::new(gpu, sky, None);
         let mut lights = Vec::with_capacity(dirs.len());
         for dirs in dirs.chunks(AT_ONCE) {
             let dirs: Vec<[f32; 4]> = dirs.iter().map(|dir| direction(*dir, 0.0)).collect();
@@ -133,8 +133,8 @@ impl SkyPass {
 }
 
 impl Tables {
-    fn new(gpu: &Gpu, sky: &SkyPlan, pixel_rad: f64) -> Tables {
-        let uniform = SkyUniform::of(sky, pixel_rad);
+    fn new(gpu: &Gpu, sky: &SkyPlan, camera: Option<&Camera>) -> Tables {
+        let uniform = SkyUniform::of(sky, camera);
         let phase = sky.sources().into_iter().flatten().find_map(|(s, _)| s.view.phase.as_ref());
         // A binding cannot be empty; without haze nothing reads it.
         let phase = phase.map_or(&[0.0f32; 2][..], |phase| phase.values());

@@ -34,23 +34,40 @@ pub struct Finished {
 impl<'g> Target<'g> {
     /// A black frame.
     pub fn new(gpu: &'g Gpu, camera: &Camera) -> Result<Target<'g>, GpuError> {
+        Target::on(gpu, camera, None)
+    }
+
+    /// A black frame on the texture of one before, if it has the same size.
+    pub fn on(
+        gpu: &'g Gpu,
+        camera: &Camera,
+        before: Option<wgpu::Texture>,
+    ) -> Result<Target<'g>, GpuError> {
         let (width_px, height_px) = (camera.width_px, camera.height_px);
         let limit = gpu.device.limits().max_texture_dimension_2d;
         if width_px.max(height_px) > limit {
             return Err(GpuError::TooLarge { width_px, height_px, limit });
         }
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("frame"),
-            size: wgpu::Extent3d { width: width_px, height: height_px, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FRAME_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::COPY_SRC
-                | wgpu::TextureUsages::COPY_DST
-                | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
+        let fits =
+            |texture: &wgpu::Texture| [texture.width(), texture.height()] == [width_px, height_px];
+        let texture = before.filter(fits).unwrap_or_else(|| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("frame"),
+                size: wgpu::Extent3d {
+                    width: width_px,
+                    height: height_px,
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: FRAME_FORMAT,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::COPY_SRC
+                    | wgpu::TextureUsages::COPY_DST
+                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            })
         });
         let stamps = gpu.keeps_time().then(|| {
             gpu.device.create_query_set(&wgpu::QuerySetDescriptor {

@@ -6,7 +6,7 @@
 //! what is read for every pixel and never branched on is a uniform: that of the globe.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::air::scattering::PHASE_VALUES;
 use crate::camera::{Camera, Projection};
@@ -21,6 +21,7 @@ use crate::photo::lens::Spike;
 use crate::plan::disc::{Disc, DiscBand, NODES, SurfaceLaw};
 use crate::plan::globe::Globe;
 use crate::plan::globe::mesh::MeshBand;
+use crate::plan::near::{Near, NearBand};
 use crate::plan::planet::PlanetDisc;
 use crate::plan::{DARK_AZIMUTHS, SKY_SHAPE, Side, SkyPlan, SourceSky};
 use crate::units::Angle;
@@ -145,7 +146,9 @@ pub struct SkyUniform {
     pub horizon: f32,
     pub half_pixel: f32,
     pub dark_azimuths: u32,
-    pub pad: [u32; 3],
+    pub middle_over: f32,
+    pub over_right: f32,
+    pub over_down: f32,
 }
 
 /// `Corner` of `shaders/milky_way.wgsl`.
@@ -272,6 +275,42 @@ pub struct DiscBandUniform {
     pub above_centre: [[f32; 4]; NODES],
 }
 
+/// `Near` of `shaders/lib/disc_near.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct NearUniform {
+    pub anchor_px: [f32; 2],
+    pub place: f32,
+    pub pixel: f32,
+    pub place_gain: [f32; 2],
+    pub place_bend: [f32; 3],
+    pub texels: f32,
+    pub outline_steps: f32,
+    pub radius: f32,
+    pub first: [f32; 2],
+    pub pad: [f32; 2],
+    pub shift: [[f32; 4]; 2],
+    pub outline: [f32; 260],
+}
+
+/// `NearBand` of `shaders/lib/disc_near.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct NearBandUniform {
+    pub at: [f32; 2],
+    pub over: f32,
+    pub beside: f32,
+    pub right: [f32; 2],
+    pub down: [f32; 2],
+    pub bend_xx: [f32; 2],
+    pub bend_xy: [f32; 2],
+    pub bend_yy: [f32; 2],
+    pub from_occluder: [f32; 2],
+    pub texel: [i32; 2],
+    pub texel_part: [f32; 2],
+    pub from_first: [f32; 2],
+}
+
 /// `Ring` of `shaders/planet.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
@@ -358,8 +397,11 @@ impl CameraUniform {
 }
 
 impl SkyUniform {
-    /// Given the height of a pixel, radians.
-    pub fn of(sky: &SkyPlan, pixel_rad: f64) -> Self {
+    /// For a camera, or for directions alone.
+    pub fn of(sky: &SkyPlan, camera: Option<&Camera>) -> Self {
+        let pixel_rad = camera.map_or(0.0, |camera| camera.pixel_angle().rad());
+        let [middle_over, over_right, over_down] =
+            camera.and_then(|camera| over_horizon_px(sky, camera)).unwrap_or_default();
         let sources = sky.sources();
         let dir = |source: &SourceSky| -> [f32; 4] {
             let to_source: Dir<Apparent> =
@@ -384,9 +426,34 @@ impl SkyUniform {
             horizon: sky.horizon.rad() as f32,
             half_pixel: (pixel_rad / 2.0) as f32,
             dark_azimuths: DARK_AZIMUTHS as u32,
-            pad: [0; 3],
+            middle_over: middle_over as f32,
+            over_right: over_right as f32,
+            over_down: over_down as f32,
         }
     }
+}
+
+/// On a narrow picture on which the horizon is, how high over it the middle is and what a pixel gains to the
+/// right and down, pixels.
+fn over_horizon_px(sky: &SkyPlan, camera: &Camera) -> Option<[f64; 3]> {
+    if camera.field_of_view >= Near::WIDEST {
+        return None;
+    }
+    let middle = [camera.width_px, camera.height_px].map(|px| 0.5 * f64::from(px));
+    let apparent_from_view = camera.view_from_apparent().inverse();
+    let over = |right: f64, down: f64| {
+        let view = camera.view_from_pixel([middle[0] + right, middle[1] + down])?;
+        let over = (apparent_from_view * view).altitude() - sky.horizon;
+        Some(over.rad() / camera.pixel_angle().rad())
+    };
+    let here = over(0.0, 0.0)?;
+    let gain = |right: f64, down: f64, px: f64| {
+        Some((over(right * px, down * px)? - over(-right * px, -down * px)?) / (2.0 * px))
+    };
+    let gains = [here, gain(1.0, 0.0, middle[0])?, gain(0.0, 1.0, middle[1])?];
+    let reach = gains[1].abs() * middle[0] + gains[2].abs() * middle[1];
+    // Elsewhere 32 bits are enough.
+    (here.abs() < 2.0 * reach).then_some(gains)
 }
 
 /// A direction and a number that goes with it.
@@ -516,6 +583,59 @@ impl DiscUniform {
     }
 }
 
+impl NearUniform {
+    pub fn of(near: &Near) -> Self {
+        let [right, down, bends @ ..] = near.place.gains.map(|v| v as f32);
+        let mut uniform = NearUniform {
+            anchor_px: near.anchor_px.map(|v| v as f32),
+            place: near.place.middle as f32,
+            pixel: near.pixel as f32,
+            place_gain: [right, down],
+            place_bend: bends,
+            ..Zeroable::zeroed()
+        };
+        if let Some(globe) = &near.globe {
+            let first = globe.turned[0];
+            uniform.texels = globe.texels_per_radius as f32;
+            uniform.outline_steps = globe.outline_steps as f32;
+            uniform.radius = first.length() as f32;
+            uniform.first = pair(first);
+            uniform.shift = [with(globe.shift[0], globe.growth), with(globe.shift[1], 0.0)];
+            for (node, outline) in uniform.outline.iter_mut().zip(&globe.outline) {
+                *node = *outline as f32;
+            }
+        }
+        uniform
+    }
+}
+
+impl NearBandUniform {
+    /// Those of a disc, one for each of its bands.
+    pub fn all(near: &Near) -> Vec<Self> {
+        let band = |(number, band): (usize, &NearBand)| {
+            let globe = near.globe.as_ref();
+            let (texel, texel_part) = globe.map_or(([0.0; 2], DVec2::ZERO), |g| g.texels[number]);
+            let from_first = globe.map_or(DVec2::ZERO, |g| g.turned[number] - g.turned[0]);
+            let [right, down, bend_xx, bend_xy, bend_yy] = band.at.gains.map(pair);
+            NearBandUniform {
+                at: pair(band.at.middle),
+                over: band.over as f32,
+                beside: band.beside as f32,
+                right,
+                down,
+                bend_xx,
+                bend_xy,
+                bend_yy,
+                from_occluder: pair(band.from_occluder),
+                texel: texel.map(|v| v as i32),
+                texel_part: pair(texel_part),
+                from_first: pair(from_first),
+            }
+        };
+        near.bands.iter().enumerate().map(band).collect()
+    }
+}
+
 impl PlanetUniform {
     pub fn of(planet: &PlanetDisc) -> Self {
         let (exponent, is_lommel_seeliger) = match planet.law {
@@ -566,6 +686,10 @@ impl DiscBandUniform {
             }),
         }
     }
+}
+
+fn pair(v: DVec2) -> [f32; 2] {
+    [v.x as f32, v.y as f32]
 }
 
 fn with(v: glam::DVec3, w: f64) -> [f32; 4] {

@@ -20,6 +20,7 @@ use glam::DVec3;
 use crate::catalog::Star;
 use crate::ephemeris::stars::SpaceMotion;
 use crate::frame::{Dir, Icrs};
+use crate::sky::names::{Designation, plain};
 use crate::units::{Angle, Magnitude};
 
 /// Cells along the edge of a face of the cube: 384 of 7 to 11 degrees in all.
@@ -41,8 +42,8 @@ struct Shared {
     /// Motions, in that order.
     motions: Vec<SpaceMotion>,
     cells: Vec<Cell>,
-    /// Numbers of the stars by folded names, made when somebody asks.
-    names: OnceLock<HashMap<String, usize>>,
+    /// Made when somebody asks.
+    names: OnceLock<Names>,
 }
 
 /// Stars that stand together.
@@ -135,22 +136,66 @@ impl StarIndex {
         ranks.map(|rank| (self.0.order[rank], self.0.motions[rank]))
     }
 
-    /// A star by name: `Sirius`, `α CMa`, `61 Cyg`, `HR 2491`, `HIP 32349`; capitals and blanks do not
-    /// count. Of two stars of one name the first in the catalogue.
+    /// A star by name: `Sirius`, `α CMa`, `alpha CMa`, `alp Canis Majoris`, `9 CMa`, `HR 2491`,
+    /// `HD 48915`, `HIP 32349`; capitals, accents and blanks do not count. Of two stars of one name the
+    /// brighter; `α Cen` is the brightest of `α¹ Cen` and `α² Cen`.
     pub fn find(&self, name: &str) -> Option<usize> {
-        let names = self.0.names.get_or_init(|| {
-            let mut names = HashMap::new();
-            for (number, star) in self.iter().enumerate() {
-                let called = star.name.iter().chain(&star.designation).map(|name| folded(name));
-                let hip = star.hip.map(|hip| format!("hip{hip}"));
-                for name in called.chain([format!("hr{}", star.hr)]).chain(hip) {
-                    names.entry(name).or_insert(number);
+        let names = self.0.names.get_or_init(|| Names::of(self));
+        names.find(name)
+    }
+}
+
+/// Numbers of the stars by all their names.
+#[derive(Debug)]
+struct Names {
+    /// By proper names and catalogue numbers, [plain] and without blanks.
+    words: HashMap<String, usize>,
+    designations: HashMap<Designation, usize>,
+}
+
+impl Names {
+    fn of(stars: &[Star]) -> Names {
+        let mut names = Names { words: HashMap::new(), designations: HashMap::new() };
+        let mut alone = Vec::new();
+        let mut by_light: Vec<usize> = (0..stars.len()).collect();
+        by_light.sort_by(|&a, &b| stars[a].magnitude.0.total_cmp(&stars[b].magnitude.0));
+        for &number in &by_light {
+            let star = &stars[number];
+            let numbers = [("hr", Some(star.hr.into())), ("hip", star.hip), ("hd", star.hd)];
+            let numbers = numbers.into_iter().filter_map(|(list, n)| Some(format!("{list}{}", n?)));
+            for word in star.name.iter().map(|name| joined(name)).chain(numbers) {
+                names.words.entry(word).or_insert(number);
+            }
+            let flamsteed = star.flamsteed.iter().filter(|&f| star.designation.as_ref() != Some(f));
+            for text in star.designation.iter().chain(flamsteed) {
+                match Designation::parse(text) {
+                    Some(read) => {
+                        if read.index.is_some() {
+                            alone.push((Designation { index: None, ..read.clone() }, number));
+                        }
+                        names.designations.entry(read).or_insert(number);
+                    }
+                    None => _ = names.words.entry(joined(text)).or_insert(number),
                 }
             }
-            names
-        });
-        names.get(&folded(name)).copied()
+        }
+        // Where no star has a letter alone, the brightest of those that have it with a figure.
+        for (read, number) in alone {
+            names.designations.entry(read).or_insert(number);
+        }
+        names
     }
+
+    fn find(&self, name: &str) -> Option<usize> {
+        let by_word = self.words.get(&joined(name));
+        let by_designation = || self.designations.get(&Designation::parse(name)?);
+        by_word.or_else(by_designation).copied()
+    }
+}
+
+/// A plain name without blanks.
+fn joined(name: &str) -> String {
+    plain(name).replace(' ', "")
 }
 
 impl StarIndex {
@@ -248,10 +293,28 @@ mod tests {
         let direct = index.iter().filter(|star| star.magnitude.0 <= 4.0).count();
         assert_eq!(count(Some(Magnitude(4.0))), direct);
         assert_eq!(count(None), index.len());
-        for name in ["sirius", "α CMa", "αcma", "HR 2491", "hip 32349"] {
+        for name in [
+            "sirius",
+            "α CMa",
+            "αcma",
+            "alpha CMa",
+            "alp canis majoris",
+            "9 CMa",
+            "HR 2491",
+            "HD 48915",
+            "hd48915",
+            "hip 32349",
+            "HIP 32349",
+        ] {
             assert_eq!(index.find(name).map(|n| index[n].hr), Some(2491), "{name}");
         }
-        assert_eq!(index.find("Sirious"), None);
+        // Of a pair the brighter; a letter alone where the catalogue has it with figures.
+        for (name, hr) in [("Castor", 2891), ("α Gem", 2891), ("α Cen", 5459), ("61 Cyg", 8085)] {
+            assert_eq!(index.find(name).map(|n| index[n].hr), Some(hr), "{name}");
+        }
+        for name in ["Sirious", "", "HD", "α", "300 CMa"] {
+            assert_eq!(index.find(name), None, "{name}");
+        }
         assert!(StarIndex::new(Vec::new()).cells().is_empty());
     }
 }

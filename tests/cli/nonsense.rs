@@ -55,10 +55,10 @@ const PLACES: &[Case] = &[
 
 /// Cameras, eyes and tolerances, in Flagstaff.
 const CAMERAS: &[Case] = &[
-    ("field_0", &["--fov", "0"], &["field of view 0°", "0.02° to 340°", "projection"]),
-    ("field_negative", &["--fov", "-5"], &["field of view -5°", "0.02° to 340°"]),
-    ("field_400", &["--fov", "400"], &["field of view 400°", "0.02° to 340°"]),
-    ("field_nan", &["--fov", "NaN"], &["field of view NaN°", "0.02° to 340°"]),
+    ("field_0", &["--fov", "0"], &["field of view 0°", "0.00028° to 340°", "projection"]),
+    ("field_negative", &["--fov", "-5"], &["field of view -5°", "0.00028° to 340°"]),
+    ("field_400", &["--fov", "400"], &["field of view 400°", "0.00028° to 340°"]),
+    ("field_nan", &["--fov", "NaN"], &["field of view NaN°", "0.00028° to 340°"]),
     ("field_in_words", &["--fov", "wide"], &["'wide'", "--fov <DEG>"]),
     (
         "perspective_180",

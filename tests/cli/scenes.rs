@@ -23,7 +23,7 @@ const VALUES: [(&str, &str, &[&str]); 22] = [
     ("azimuth_deg", "nan", &["direction of view NaN°", "360°"]),
     ("altitude_deg", "91", &["altitude of view 91°", "-90° to 90°"]),
     ("roll_deg", "nan", &["roll NaN°", "360°"]),
-    ("field_of_view_deg", "nan", &["field of view NaN°", "0.02° to 340°"]),
+    ("field_of_view_deg", "nan", &["field of view NaN°", "0.00028° to 340°"]),
     ("projection", "\"mercator\"", &["line ", "mercator", "stereographic"]),
     ("width_px", "0", &["size 0x", "1x1 to 16384x16384"]),
     ("width_px", "-3", &["line ", "-3"]),

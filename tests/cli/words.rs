@@ -3,6 +3,8 @@
 use libtest_mimic::Trial;
 use serde_json::Value;
 
+#[cfg(feature = "app")]
+use super::harness::NONSENSE;
 use super::harness::{DARK, IMPOSSIBLE, nocturne, trial, words};
 
 /// Keys of a description that are promised for good.
@@ -63,12 +65,32 @@ pub fn trials() -> Vec<Trial> {
             let run = nocturne(["--version"]).done();
             assert_eq!(run.stdout, format!("nocturne {}\n", env!("CARGO_PKG_VERSION")));
         }),
-        trial("words::no_command_gives_help_and_an_error", || {
-            let run = nocturne([""; 0]).run();
-            assert_eq!(run.code(), Some(2), "{run}");
-            assert!(run.stdout.is_empty() && run.stderr.contains("Usage: nocturne"), "{run}");
-        }),
     ];
+    #[cfg(not(feature = "app"))]
+    trials.push(trial("words::no_command_gives_help_and_an_error", || {
+        let run = nocturne([""; 0]).run();
+        assert_eq!(run.code(), Some(2), "{run}");
+        assert!(run.stdout.is_empty() && run.stderr.contains("Usage: nocturne"), "{run}");
+    }));
+    #[cfg(feature = "app")]
+    trials.push(trial("words::the_window_refuses_nonsense", || {
+        let cases: [(&str, &[&str]); 4] = [
+            ("--size 7x7", &["--size", "1280x720"]),
+            ("--at tomorrow", &["'tomorrow'", "2026-08-12"]),
+            ("--place Xyzzyville", &["Xyzzyville"]),
+            ("--full-screen render", &["render"]),
+        ];
+        for (line, said) in cases {
+            nocturne(words(line)).with_variable("NOCTURNE_STATE", "").refused(NONSENSE, said);
+        }
+    }));
+    #[cfg(all(feature = "app", target_os = "linux"))]
+    trials.push(trial("words::no_command_opens_a_window_or_says_why_not", || {
+        let run = ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "NOCTURNE_STATE"]
+            .into_iter()
+            .fold(nocturne([""; 0]), |run, variable| run.with_variable(variable, ""));
+        run.refused(IMPOSSIBLE, &["no window", "desktop session", "nocturne render"]);
+    }));
     #[cfg(target_os = "linux")]
     trials.push(trial("words::without_a_driver_only_pictures_fail", || {
         let without_driver = |line: &str| {

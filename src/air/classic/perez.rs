@@ -26,9 +26,9 @@ use super::gradation::{Direction, Gradation};
 use super::turbidity::WATER_CM;
 
 /// Clearnesses that occur.
-pub(super) const CLEARNESSES: (f64, f64) = (1.0, 12.0);
+pub const CLEARNESSES: (f64, f64) = (1.0, 12.0);
 /// Brightnesses that occur.
-pub(super) const BRIGHTNESSES: (f64, f64) = (0.01, 0.6);
+pub const BRIGHTNESSES: (f64, f64) = (0.01, 0.6);
 
 /// Irradiance outside the air, as in the publications, W/m2.
 const SOLAR_CONSTANT_W_M2: f64 = 1367.0;

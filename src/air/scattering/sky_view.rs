@@ -199,13 +199,19 @@ impl ScatteringTables {
         SkyRays { shape, horizon, height_km, rays: self.view_rays(height_km, &elevations) }
     }
 
+    /// The elevation in which a source of the given true zenith distance is seen from where rays were cut.
+    pub fn source_elevation(&self, from: &SkyRays, cos_source_zenith: f64) -> Angle {
+        let cos_source = cos_source_zenith.clamp(-1.0, 1.0);
+        let raised = self.beams.refraction(from.height_km.max(self.ground_km()), cos_source);
+        Angle::from_rad(cos_source.asin()) + raised
+    }
+
     /// The light all around, under a source of the given true zenith distance.
     pub fn sky_view(&self, from: &SkyRays, cos_source_zenith: f64) -> SkyView {
-        let SkyRays { shape, horizon, height_km, ref rays } = *from;
+        let SkyRays { shape, horizon, ref rays, .. } = *from;
         let n = self.wavelengths_nm.len();
         let cos_source = cos_source_zenith.clamp(-1.0, 1.0);
-        let raised = self.beams.refraction(height_km.max(self.ground_km()), cos_source);
-        let source_elevation = Angle::from_rad(cos_source.asin()) + raised;
+        let source_elevation = self.source_elevation(from, cos_source_zenith);
         let cos_azimuths: Vec<f64> = (0..shape.azimuths).map(|i| shape.azimuth(i).cos()).collect();
         let rows: Vec<(Vec<f32>, Vec<f32>)> = (0..shape.rows())
             .into_par_iter()

@@ -323,6 +323,11 @@ pub struct Point {
     pub light: [f64; 4],
 }
 
+/// Standard deviation of what a level does to a pixel, along an axis, pixels: that of its quintic B-spline.
+pub fn level_sigma_px(level: i32) -> f64 {
+    (4f64.powi(level) / 2.0 - 1.0).sqrt()
+}
+
 /// The light of a level, from 1, as the steps down leave it: what lies in the place of each texel.
 pub fn gathered(frame: &HdrFrame, level: usize) -> HdrFrame {
     let pixels = frame.pixels().iter().map(|pixel| pixel.map(f64::from)).collect();

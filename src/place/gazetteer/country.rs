@@ -21,6 +21,20 @@ pub(super) fn is_named(zone: &str, name: &str) -> bool {
     NAMES_BY_ZONE.get(zone).is_some_and(|names| names.iter().any(|known| known == name))
 }
 
+/// The country of a time zone, as the table writes it.
+pub(super) fn name(zone: &str) -> Option<&'static str> {
+    static NAME_BY_ZONE: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| {
+        let table = include_str!("../../../catalogs/place/zone_countries.csv");
+        let row = |line: &'static str| {
+            let mut fields = line.split(',');
+            let (zone, _, names) = (fields.next()?, fields.next()?, fields.next()?);
+            Some((zone, names.split('|').next()?))
+        };
+        table.lines().filter(|line| !line.starts_with('#')).filter_map(row).collect()
+    });
+    NAME_BY_ZONE.get(zone).copied()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! Names as they are compared: small letters without accents, words with single spaces.
 
 /// Small letters, accents dropped, punctuation gone, `Saint` and `Mount` shortened.
-pub(super) fn folded(text: &str) -> String {
+pub fn folded(text: &str) -> String {
     fold(text, plain_letter)
 }
 

@@ -1,4 +1,4 @@
-//! The files that a render was asked for.
+//! The files of a picture: opened before the work begins, so that none of it is done for nothing.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,77 +7,40 @@ use crate::export::describe::Description;
 use crate::export::exif::About;
 use crate::export::exr::{self, Attribute};
 use crate::export::{OutputFile, png};
-use crate::image::{Codes, HdrFrame};
-use crate::light::night::Night;
-use crate::photo::exposure::Exposure;
-use crate::scene::{Scene, Setting};
+use crate::scene::Setting;
 
-use super::display::Bits;
-use super::draw::Wanted;
-use super::error::CliError;
+use super::picture::{Picture, Wanted};
+use super::{Bits, JobError, Subject};
 
-/// The files, opened before the work begins, so that none of it is done for nothing.
+/// Files that are open. Those that are not written leave no trace.
+#[derive(Debug)]
 pub struct Outputs {
     png: Vec<OutputFile>,
     exr: Vec<OutputFile>,
     scene: Option<OutputFile>,
     description: Option<OutputFile>,
-    describe_to_stdout: bool,
-}
-
-/// A finished picture.
-pub struct Picture {
-    /// The light itself.
-    pub frame: Option<HdrFrame>,
-    /// What the eye or the camera made of it.
-    pub codes: Option<Codes>,
-    /// What the camera was set to.
-    pub exposure: Option<Exposure>,
-}
-
-/// What was written.
-pub struct Written {
-    pub paths: Vec<PathBuf>,
-    pub used_stdout: bool,
 }
 
 impl Outputs {
+    /// Opens pictures, whose names say what they are, and files for the scene and for what is in it.
     pub fn open(
         pictures: &[PathBuf],
-        description: &Option<PathBuf>,
-        scene: &Option<PathBuf>,
-    ) -> Result<Outputs, CliError> {
+        scene: Option<&Path>,
+        description: Option<&Path>,
+    ) -> Result<Outputs, JobError> {
         let (mut png, mut exr) = (Vec::new(), Vec::new());
         for path in pictures {
             let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
             let kind = match extension.to_ascii_lowercase().as_str() {
                 "png" => &mut png,
                 "exr" => &mut exr,
-                _ => {
-                    return Err(CliError::Usage(format!(
-                        "--output {}: the name must end in .png or .exr",
-                        path.display()
-                    )));
-                }
+                _ => return Err(JobError::Extension { path: path.display().to_string() }),
             };
             kind.push(OutputFile::create(path)?);
         }
-        let describe_to_stdout = description.as_deref() == Some(Path::new("-"));
-        let open = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
-        let outputs = Outputs {
-            png,
-            exr,
-            scene: open(scene)?,
-            description: if describe_to_stdout { None } else { open(description)? },
-            describe_to_stdout,
-        };
+        let open = |path: Option<&Path>| path.map(OutputFile::create).transpose();
+        let outputs = Outputs { png, exr, scene: open(scene)?, description: open(description)? };
         outputs.check_apart()?;
-        if !outputs.draws() && scene.is_none() && description.is_none() {
-            return Err(CliError::Usage(
-                "nothing to write: give --output FILE, --describe FILE or --save-scene FILE"
-                    .to_owned(),
-            ));
-        }
         Ok(outputs)
     }
 
@@ -86,40 +49,34 @@ impl Outputs {
         !self.png.is_empty() || !self.exr.is_empty()
     }
 
+    pub fn is_empty(&self) -> bool {
+        !self.draws() && self.scene.is_none() && self.description.is_none()
+    }
+
     /// What of the drawing the files hold.
     pub fn wanted(&self, bits: Bits) -> Wanted {
         Wanted { frame: !self.exr.is_empty(), picture: (!self.png.is_empty()).then_some(bits) }
     }
 
     /// Refuses two outputs of the same name, one of which would be lost.
-    fn check_apart(&self) -> Result<(), CliError> {
+    fn check_apart(&self) -> Result<(), JobError> {
         let pictures = self.png.iter().chain(&self.exr);
         let files: Vec<_> = pictures.chain(&self.scene).chain(&self.description).collect();
         for (index, file) in files.iter().enumerate() {
             if files[..index].iter().any(|other| other.is_same_as(file)) {
-                return Err(CliError::Usage(format!(
-                    "{} is given for two outputs; give each a file of its own",
-                    file.path().display()
-                )));
+                return Err(JobError::Twice { path: file.path().display().to_string() });
             }
         }
         Ok(())
     }
 
-    /// Steps of the work: positions and writing, and four of drawing.
-    pub fn steps(&self) -> u64 {
-        if self.draws() { 6 } else { 2 }
-    }
-
-    /// Writes everything.
+    /// Writes everything, and says what.
     pub fn write(
         self,
-        scene: &Scene,
-        setting: &Setting,
-        night: &Night,
+        subject: &Subject,
         picture: Option<&Picture>,
-        stdout: &mut impl Write,
-    ) -> Result<Written, CliError> {
+    ) -> Result<Vec<PathBuf>, JobError> {
+        let Subject { scene, setting, night } = *subject;
         let mut paths = Vec::new();
         let mut note = |file: &OutputFile| paths.push(file.path().to_owned());
         if let Some(picture) = picture {
@@ -147,10 +104,7 @@ impl Outputs {
             note(&file);
             Description::of(setting, night).write(file)?;
         }
-        if self.describe_to_stdout {
-            Description::of(setting, night).write_to(stdout)?;
-        }
-        Ok(Written { paths, used_stdout: self.describe_to_stdout })
+        Ok(paths)
     }
 }
 
@@ -176,4 +130,31 @@ fn attributes(setting: &Setting) -> Vec<(&'static str, Attribute)> {
         ("altitude_deg", Attribute::Number(camera.altitude.deg())),
         ("roll_deg", Attribute::Number(camera.roll.deg())),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_what_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let open = |names: &[&str]| {
+            let paths: Vec<PathBuf> = names.iter().map(|name| path(name)).collect();
+            Outputs::open(&paths, None, None)
+        };
+        let frame = open(&["sky.EXR"]).unwrap().wanted(Bits::Sixteen);
+        assert!(frame.frame && frame.picture.is_none());
+        let both = open(&["sky.png", "sky.exr"]).unwrap().wanted(Bits::Sixteen);
+        assert!(both.frame && both.picture == Some(Bits::Sixteen));
+        assert!(matches!(open(&["sky.jpg"]), Err(JobError::Extension { .. })));
+        assert!(matches!(open(&["sky.png", "./sky.png"]), Err(JobError::Twice { .. })));
+        let same = Outputs::open(&[path("a.png")], Some(&path("a.png")), None);
+        assert!(matches!(same, Err(JobError::Twice { .. })));
+        let nothing = open(&[]).unwrap();
+        assert!(nothing.is_empty() && !nothing.draws());
+        // Files that were opened and not written leave no trace.
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
 }
