@@ -2,6 +2,8 @@
 
 PLACE ?= Flagstaff
 NOCTURNE = target/release/nocturne
+# Sees to it that there is something to draw with.
+ADAPTER = $(NOCTURNE) adapter >/dev/null 2>&1 || scripts/prepare.sh adapter
 
 # Keeps a layer of the Mesa drivers from complaining, in tests, that it finds no window system.
 export NODEVICE_SELECT ?= 1
@@ -13,9 +15,13 @@ sky: driver
 		--size 1920x1080 -o tonight.png
 
 # The core alone first: it must build and pass without a GPU, a window or a picture format.
-test: driver
+# The tests build the program too, with what they need of its libraries: `driver` would build these twice.
+test:
+	@scripts/prepare.sh linker
 	@scripts/prepare.sh window
 	cargo test --release --no-default-features
+	cargo test --release --no-run
+	@$(ADAPTER)
 	cargo test --release
 
 # Builds the program and, if it finds no graphics adapter, installs the software one.
@@ -23,7 +29,7 @@ test: driver
 driver:
 	@scripts/prepare.sh linker
 	cargo build --release
-	@$(NOCTURNE) adapter >/dev/null 2>&1 || scripts/prepare.sh adapter
+	@$(ADAPTER)
 
 lint:
 	cargo fmt --check

@@ -263,8 +263,9 @@ impl App {
             actions: &mut actions,
         };
         self.panels.bar(ui, &mut desk);
+        let room = ui.available_rect_before_wrap();
         let size_px = self.canvas.show(ui, &mut desk, self.renderer.as_deref());
-        self.panels.windows(ui, &mut desk);
+        self.panels.windows(ui, room, &mut desk);
 
         for action in actions {
             self.act(ui.ctx(), action);

@@ -314,7 +314,8 @@ impl LightMeter {
         let is_fresh = answer.as_ref().is_some_and(|answer| answer.0.is_like(&wish));
         let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
         let is_asked = asked.as_ref().is_some_and(|asked| asked.is_like(&wish));
-        if !is_fresh && !background.is_working() && !(is_asked && answer.is_none()) {
+        let is_awaited = is_asked && answer.is_none();
+        if !(is_fresh || is_awaited || background.is_working()) {
             background.ask(wish.clone());
             *asked = Some(wish);
         }

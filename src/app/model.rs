@@ -225,13 +225,13 @@ impl Model {
             },
             sky: scene.sky,
             scintillation: scene.scintillation,
-            night: scene.night.clone(),
+            night: scene.night,
             moon: scene.moon,
             air: scene.air.clone(),
             eye: scene.eye.clone(),
-            photo: scene.photo.clone().unwrap_or_default(),
+            photo: scene.photo.unwrap_or_default(),
             uses_camera: scene.photo.is_some(),
-            display: scene.display.clone(),
+            display: scene.display,
             ..Model::default()
         })
     }
@@ -260,12 +260,12 @@ impl Model {
             layers: self.layers.clone(),
             sky: self.sky,
             scintillation: self.scintillation,
-            night: self.night.clone(),
+            night: self.night,
             moon: self.moon,
             air: self.air.clone(),
             eye: self.eye.clone(),
-            photo: self.uses_camera.then(|| self.photo.clone()),
-            display: self.display.clone(),
+            photo: self.uses_camera.then_some(self.photo),
+            display: self.display,
             marks: Marks {
                 horizon: self.overlays.horizon,
                 cardinal_points: self.overlays.cardinal_points,

@@ -389,9 +389,12 @@ impl<'a> Sketch<'a> {
     }
 
     /// Draws great circles from corner to corner.
-    fn path(&mut self, corners: &[Dir<Horizon>], pen: &Pen) {
+    /// `free` of each corner, points, is left to the star that stands there.
+    fn path(&mut self, corners: &[Dir<Horizon>], free: f64, pen: &Pen) {
         /// How far the air lifts what stands low, with room, radians.
         const LIFTED_RAD: f64 = 0.02;
+        /// Of a short side this part at each end is left free at most.
+        const MOST_FREE: f64 = 0.25;
         let mut whole: Line = Vec::new();
         for pair in corners.windows(2) {
             let [a, b] = [pair[0].vector(), pair[1].vector()];
@@ -405,7 +408,8 @@ impl<'a> Sketch<'a> {
                 let dir: Dir<Horizon> = Dir::from_vector(a * angle.cos() + side * angle.sin());
                 self.night.refraction.apparent_from_horizon(dir)
             };
-            let curve = Curve { at, from: 0.0, to: along, rate_rad: 1.0 };
+            let free_rad = (free / self.points_per_rad()).min(MOST_FREE * along);
+            let curve = Curve { at, from: free_rad, to: along - free_rad, rate_rad: 1.0 };
             for line in self.picture.trace(&curve) {
                 let joins = whole.last().zip(line.first()).is_some_and(|(end, start)| {
                     (end[0] - start[0]).hypot(end[1] - start[1]) < 0.01

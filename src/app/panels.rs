@@ -96,10 +96,9 @@ impl Panels {
         }
     }
 
-    /// The windows that are open, over a part of the window.
-    pub fn windows(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    /// The panels that are open, over the room of the sky.
+    pub fn windows(&mut self, ui: &mut Ui, room: Rect, desk: &mut Desk) {
         let ctx = ui.ctx().clone();
-        let room = ui.max_rect();
         self.info.show(ui, desk);
         if !desk.model.panels.is_open(Panel::Search) {
             self.search.closed();
@@ -155,7 +154,12 @@ fn first_place(panel: Panel, room: Rect) -> (Align2, Pos2, Vec2) {
         Panel::Export => (Align2::RIGHT_TOP, pos2(right, top), vec2(360.0, 260.0)),
         Panel::Help => (Align2::LEFT_TOP, pos2(left, top), vec2(580.0, 640.0)),
     };
-    let largest = vec2(room.width() * WIDEST_SHARE, room.height());
+    let widest = match panel {
+        // Of two columns, both of which are wanted.
+        Panel::Time | Panel::Place | Panel::Help => 1.0,
+        _ => WIDEST_SHARE,
+    };
+    let largest = vec2(room.width() * widest, room.height());
     // Where the window is small, panels are readable rather than beside the middle.
     let largest = largest.max(vec2(300.0, 120.0)).min(room.size().max(Vec2::splat(1.0)));
     (pivot, corner, size.min(largest))

@@ -261,7 +261,7 @@ fn sound(read: Model) -> Model {
     let usual = Model::default();
     let is_sound = |model: &Model| {
         // Only what is used is checked.
-        let scene = Scene { photo: Some(model.photo.clone()), ..model.scene(SIZE_PX) };
+        let scene = Scene { photo: Some(model.photo), ..model.scene(SIZE_PX) };
         scene.setting().is_ok()
     };
     let mut model = Model {
@@ -296,11 +296,11 @@ fn sound(read: Model) -> Model {
     keep(&|model| model.layers = read.layers.clone());
     keep(&|model| model.sky = read.sky);
     keep(&|model| model.scintillation = read.scintillation);
-    keep(&|model| model.night = read.night.clone());
+    keep(&|model| model.night = read.night);
     keep(&|model| model.air = read.air.clone());
     keep(&|model| model.eye = read.eye.clone());
-    keep(&|model| model.photo = read.photo.clone());
-    keep(&|model| model.display = read.display.clone());
+    keep(&|model| model.photo = read.photo);
+    keep(&|model| model.display = read.display);
     model
 }
 

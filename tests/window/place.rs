@@ -105,7 +105,7 @@ fn favourites_are_added_gone_to_and_removed() {
     harness.get_by_label("Add this place").click();
     harness.run_steps(3);
     let greenwich = harness.state().model().place.clone();
-    assert_eq!(harness.state().model().favourites, [greenwich.clone()]);
+    assert_eq!(harness.state().model().favourites, std::slice::from_ref(&greenwich));
     write(&mut harness, "Latitude", "-33");
     harness.key_press(Key::Enter);
     harness.run_steps(3);

@@ -10,6 +10,8 @@ use crate::sky::constellation::boundary_lines;
 
 const FIGURE: Pen = Pen::new([140, 170, 220], 0.55, 1.2, &[]);
 const BOUNDARY: Pen = Pen::new([204, 121, 167], 0.5, 0.9, &[3.0, 3.0]);
+/// Figures stop so far from their stars, points, so that these are seen.
+const FREE_OF_STARS: f64 = 6.0;
 /// Names are written in the whole sky at a time, or less, degrees.
 const WIDEST_DEG: f64 = 240.0;
 
@@ -21,7 +23,7 @@ pub fn draw(sketch: &mut Sketch) {
             for line in &id.get().figure {
                 let corners: Vec<Dir<Horizon>> =
                     line.iter().map(|star| corner(sketch, star)).collect();
-                sketch.path(&corners, &FIGURE);
+                sketch.path(&corners, FREE_OF_STARS, &FIGURE);
             }
         }
     }
@@ -29,7 +31,7 @@ pub fn draw(sketch: &mut Sketch) {
         for line in boundary_lines() {
             let corners: Vec<Dir<Horizon>> =
                 line.iter().map(|&dir| sky.horizon_from_icrs * dir).collect();
-            sketch.path(&corners, &BOUNDARY);
+            sketch.path(&corners, 0.0, &BOUNDARY);
         }
     }
     if sketch.on.constellation_names && sketch.field_deg() <= WIDEST_DEG {

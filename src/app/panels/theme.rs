@@ -8,8 +8,6 @@ use eframe::egui::{self, Color32, Context, LayerId, Stroke, Visuals};
 
 use crate::app::model::Model;
 
-/// Panels let the sky shine through a little: 255 would let nothing.
-const PANEL_ALPHA: u8 = 232;
 /// Text is so bright, of 255: black behind it makes a contrast of 14 to 1.
 const TEXT_GREY: u8 = 214;
 /// Text of less weight; a contrast of 6 to 1.
@@ -81,7 +79,7 @@ pub fn visuals(is_red: bool) -> Visuals {
 
 fn quiet() -> Visuals {
     let mut visuals = Visuals::dark();
-    let panel = Color32::from_rgba_unmultiplied(13, 14, 18, PANEL_ALPHA);
+    let panel = Color32::from_rgb(13, 14, 18);
     (visuals.window_fill, visuals.panel_fill) = (panel, panel);
     visuals.window_stroke = Stroke::new(1.0, Color32::from_gray(52));
     // Soft shadows cost more than all else that a panel draws.

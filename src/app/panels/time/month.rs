@@ -12,7 +12,7 @@ use crate::units::DAY_S;
 
 const WEEKDAYS: [&str; 7] = ["Mo", "Tu", "We", "Th", "Fr", "Sa", "Su"];
 /// Of the sign of a phase, points.
-const MOON_RADIUS: f32 = 4.0;
+const MOON_RADIUS: f32 = 3.5;
 /// Longer than any month.
 const LONGEST_MONTH_DAYS: f64 = 33.0;
 
@@ -154,11 +154,11 @@ fn day_button(
         Some(Quarter::Last) => ", last quarter",
     };
     let button = Button::selectable(is_now, day.to_string());
-    let response = ui.add(button.min_size(egui::vec2(34.0, 18.0)));
+    let response = ui.add(button.min_size(egui::vec2(38.0, 18.0)));
     let date = format!("{day} {} {year}{name}", month_name(month));
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_now, &date));
     if let Some(phase) = phase {
-        let middle = response.rect.right_center() - egui::vec2(MOON_RADIUS + 2.0, 0.0);
+        let middle = response.rect.right_center() - egui::vec2(MOON_RADIUS + 1.0, 0.0);
         draw_moon(ui, middle, phase);
     }
     response.on_hover_text(date).clicked()
