@@ -45,15 +45,15 @@ end find_jupiter
 begin --scene docs/window/evening.toml
 press F3
 xdotool type moon
-press Return Escape
+press Return
 sleep 4
 end moonrise
 
-begin --scene docs/window/evening.toml
+begin --place Flagstaff --at "2026-02-20 19:15"
 press F5
 sleep 1
 # The button beside "lunar eclipse".
-xdotool mousemove "${ECLIPSE_X:-1041}" "${ECLIPSE_Y:-630}" click 1
+xdotool mousemove "${ECLIPSE_X:-1050}" "${ECLIPSE_Y:-474}" click 1
 sleep 8
 press l Escape
 for _ in 1 2 3 4 5 6 7 8 9 10; do press Prior; done

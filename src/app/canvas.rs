@@ -20,6 +20,8 @@ use super::sky::Shown;
 const ZOOM_PER_POINT: f64 = 0.004;
 /// Nearest that a click must come to what it selects, points.
 const CLICK_POINTS: f64 = 14.0;
+/// A sky that is narrower or lower has no room for lines, words or a hand, points.
+const LEAST_POINTS: f32 = 4.0;
 
 /// The place of the sky in the window.
 #[derive(Default)]
@@ -154,7 +156,8 @@ impl Canvas {
         if let Some(laid) = &self.picture {
             underlay(Arc::clone(&laid.bare));
         }
-        if let Some(shown) = desk.shown {
+        let is_seen = rect.width() > LEAST_POINTS && rect.height() > LEAST_POINTS;
+        if let Some(shown) = desk.shown.filter(|_| is_seen) {
             let frame = Frame { camera: shown.setting.camera, rect };
             self.overlays.draw(&painter, &frame, shown, desk, self.picture.is_none());
             if let Some(lined) = self.lined(renderer, rect) {

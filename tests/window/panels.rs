@@ -7,10 +7,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use nocturne::app::App;
 use nocturne::app::action::Layer;
-use nocturne::app::model::{Model, Panel, Panels};
+use nocturne::app::model::{Model, Overlays, Panel, Panels};
 
 use crate::controls::{press, with_panel};
-use crate::window_of;
+use crate::{settle, window_of};
 
 /// What a user can use, or is told by.
 const USED: [Role; 10] = [
@@ -89,6 +89,23 @@ fn panels_stay_in_a_window_that_shrinks_and_off_its_middle() {
     for rect in window_rects(&harness) {
         assert!(room.contains_rect(rect), "{rect:?}");
     }
+}
+
+#[test]
+fn a_window_that_is_all_bar_is_no_end_of_it() {
+    let overlays = Overlays {
+        equatorial_grid: true,
+        constellation_lines: true,
+        ecliptic: true,
+        ..Overlays::default()
+    };
+    let model = all_open(Model { overlays, ..Model::default() });
+    let mut harness = window_of(model, [640.0, 400.0]);
+    for size in [vec2(640.0, 30.0), vec2(30.0, 400.0), vec2(1.0, 1.0), vec2(640.0, 400.0)] {
+        harness.set_size(size);
+        settle(&mut harness);
+    }
+    assert!(harness.state().overlays().corners() > 0);
 }
 
 #[test]
